@@ -187,7 +187,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   if (!motion.at_rest) of_step = step_part(motion, kept, own, allowed, step);
   mesh = assess::estimate_mesh_error(motion, own, allowed);
   if (no_model.empty())
-    model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed, step);
+    model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed);
   else
     model.none = no_model;
   ordered_json j;

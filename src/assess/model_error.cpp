@@ -37,14 +37,13 @@ std::string step_words(double step) {
 class ModelError {
  public:
   ModelError(Formulation formulation, const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-             const ErrorPart& mesh, const ErrorPart& step, double allowed, ErrorPart& part)
+             const ErrorPart& mesh, double allowed, ErrorPart& part)
       : formulation_(formulation),
         name_("formulation " + name_of(formulation)),
         motion_(motion),
         own_(own),
         reduction_(reduction),
         mesh_(mesh),
-        step_(step),
         part_(part),
         time_(motion.comm, allowed),
         allowed_(allowed),
@@ -81,9 +80,12 @@ class ModelError {
     const Simulated one = own_motion(used, exact->reached);
     const std::vector<std::string> notes = part_.notes;
     set_errors(own_, exact->probes, one, 1, others(), part_);
-    if (const std::optional<Better> twice = extrapolate_steps(used, plain, *exact)) {
-      set_errors(own_, exact->probes, one, 1, others(), part_ = emptied(notes));
-      leave_out_unresolved(plain.probes, twice->probes);
+    if (const std::optional<ErrorPart> change = changed_by_steps(used, plain.probes, one, exact->reached)) {
+      std::vector<std::vector<double>> less = others();
+      for (std::size_t i = 0; i < std::min(less.size(), change->errors.size()); ++i)
+        for (std::size_t c = 0; c < less[i].size(); ++c) less[i][c] -= change->errors[i][c] / 3;
+      set_errors(own_, exact->probes, one, 1, less, part_ = emptied(notes));
+      leave_out_unresolved(*change);
     }
     if (part_.t.empty()) part_.none = name_ + " has no results at the instants stored";
   }
@@ -190,51 +192,54 @@ class ModelError {
     }
   }
 
-  /// Where the part is large, and the time allows: to steps of no length, with those twice as long. In coarse steps the
-  /// errors of both models' steps may be unlike, as those of motions are that only one of them has.
-  /// @return  the simulation in these; none: it was not made
-  std::optional<Better> extrapolate_steps(Thinning used, const Better& plain, Better& exact) {
+  /// Where the part is large, and the time allows: what the difference of both models is more than in steps twice
+  /// as long. In coarse steps the errors of both models' steps may be unlike, as those of motions are that only one of
+  /// them has; where steps resolve what both have, they are alike.
+  /// @return  none: not simulated
+  std::optional<ErrorPart> changed_by_steps(Thinning used, const Simulated& plain, const Simulated& one, double end) {
     constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
     const auto large_ones = std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
-    const auto missing = std::count_if(own_.t.begin(), own_.t.end(), [&](double t) {
-      return t <= exact.reached && !std::binary_search(step_.t.begin(), step_.t.end(), t);
-    });
-    const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_) && step_.none.empty();
-    const bool useful = time_.of_first(wanted && large_ones > 0 && missing == 0) > 0,
+    const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_);
+    const bool useful = time_.of_first(wanted && large_ones > 0) > 0,
                fits = time_.of_first(needs(twice)) <= time_.left();
     if (!useful || !fits) return std::nullopt;
+    const std::vector<std::string> notes = part_.notes;
     std::optional<Better> second;
-    const std::string why = petsc::failed_together(motion_.comm, [&] { second = better(twice, exact.reached, false); });
+    Simulated own_second;
+    const std::string why = petsc::failed_together(motion_.comm, [&] {
+      second = better(twice, end, false);
+      own_second = own_motion(twice, end);
+    });
+    part_.notes = notes;
     if (!why.empty()) return std::nullopt;  // the part stands
-    const bool good = resolved(second->event_error),
-               short_of = time_.of_first(second->reached - 0.98 * exact.reached) < 0;
+    const bool good = resolved(second->event_error), short_of = time_.of_first(second->reached - 0.98 * end) < 0;
     if (!good || short_of) return std::nullopt;
-    add_third(exact.probes.values, plain.probes.values, second->probes.values);
-    part_.by += ", and in steps twice as long";
-    steps_ = used.step;
-    return second;
+    ErrorPart of_own, change;
+    set_errors(own_, one, own_second, 1, {}, of_own);
+    set_errors(own_, plain, second->probes, 1, of_own.errors, change);
+    if (change.t.empty()) return std::nullopt;
+    part_.by += ", and both in steps twice as long";
+    return change;
   }
 
-  /// Probes whose part is smaller than what steps twice as long change of formulation cfr: its steps do not resolve
-  /// them, and the part says nothing of the model.
-  void leave_out_unresolved(const Simulated& fine, const Simulated& coarse) {
+  /// Probes of which steps twice as long change the difference of both models by more than half of the part: steps do
+  /// not resolve it.
+  void leave_out_unresolved(const ErrorPart& change) {
     constexpr double large = 0.01, unknown = std::numeric_limits<double>::quiet_NaN();
-    ErrorPart change;
-    set_errors(own_, fine, coarse, 1, {}, change);
     std::vector<std::string> names;
     for (std::size_t c = 0, p = 0; c < own_.columns.size(); ++p) {
       const std::string name = probe_of(own_.columns[c]);
-      const bool unresolved = part_.probes[p] > large && change.probes[p] > part_.probes[p];
+      const bool unresolved = part_.probes[p] > large && change.probes[p] > part_.probes[p] / 2;
       if (unresolved) names.push_back(name), part_.probes[p] = unknown;
       for (; c < own_.columns.size() && probe_of(own_.columns[c]) == name; ++c)
         for (std::size_t i = 0; unresolved && i < part_.errors.size(); ++i) part_.errors[i][c] = unknown;
     }
     if (!names.empty())
-      part_.notes.push_back(
-          fmt::format("steps twice as long change formulation cfr by more than this part: {} {} left "
-                      "out; take a smaller motion.step",
-                      fmt::join(names, ", "), names.size() > 1 ? "are" : "is"));
+      part_.notes.push_back(fmt::format(
+          "steps twice as long change the difference to formulation cfr by more than half of this part: {} {} left "
+          "out; take a smaller motion.step",
+          fmt::join(names, ", "), names.size() > 1 ? "are" : "is"));
   }
 
   /// The part without its errors, and with the notes before them.
@@ -253,7 +258,7 @@ class ModelError {
       for (std::size_t c = 0; c < values[i].size(); ++c) values[i][c] += (fine[i][c] - coarse[i][c]) / 3;
   }
 
-  /// What is not of the model in the difference: the errors of the reduction, of the mesh, and of extrapolated steps.
+  /// What is not of the model in the difference: the errors of the reduction and of the mesh.
   std::vector<std::vector<double>> others() const {
     std::vector<std::vector<double>> sum(own_.t.size(), std::vector<double>(own_.columns.size(), 0));
     const auto add = [&](double factor, const std::vector<double>& t, const std::vector<std::vector<double>>& errors) {
@@ -267,7 +272,6 @@ class ModelError {
     };
     add(1, reduction_.t, reduction_.errors);
     if (part_.apart) add(1, mesh_.t, mesh_.errors);
-    if (steps_ > 0) add(steps_ * steps_, step_.t, step_.errors);
     return sum;
   }
 
@@ -333,14 +337,12 @@ class ModelError {
   const ProbeSeries& own_;
   const Estimate& reduction_;
   const ErrorPart& mesh_;
-  const ErrorPart& step_;
   ErrorPart& part_;
   TimeBudget time_;
   double allowed_, took_;
   Scene scene_;
   double each_ = 0;   // a step of the better model [s]
   double until_ = 0;  // [s]
-  double steps_ = 0;  // of those of the motion, where steps are extrapolated; 0: they are not
 };
 
 }  // namespace
@@ -348,7 +350,7 @@ class ModelError {
 namespace {
 
 ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, const ProbeSeries& own,
-                        const Estimate& reduction, const ErrorPart& mesh, double allowed, const ErrorPart& step) {
+                        const Estimate& reduction, const ErrorPart& mesh, double allowed) {
   ErrorPart part;
   part.apart = false;
   part.none.clear();
@@ -356,7 +358,7 @@ ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, c
   if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
   if (!part.none.empty()) return part;
-  ModelError error(formulation, motion, own, reduction, mesh, step, allowed, part);
+  ModelError error(formulation, motion, own, reduction, mesh, allowed, part);
   fill_in(motion, part, [&] { error.estimate(); });
   part.seconds = error.spent();
   return part;
@@ -365,12 +367,12 @@ ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, c
 }  // namespace
 
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-                               const ErrorPart& mesh, double allowed, const ErrorPart& step) {
-  return difference_to(Formulation::cfr, motion, own, reduction, mesh, allowed, step);
+                               const ErrorPart& mesh, double allowed) {
+  return difference_to(Formulation::cfr, motion, own, reduction, mesh, allowed);
 }
 
 Estimate estimate_by_full_order(const FinishedMotion& motion, const ProbeSeries& own, double allowed) {
-  ErrorPart part = difference_to(Formulation::nlffr, motion, own, {}, {}, allowed, {});
+  ErrorPart part = difference_to(Formulation::nlffr, motion, own, {}, {}, allowed);
   Estimate estimate;
   estimate.none = std::move(part.none), estimate.notes = std::move(part.notes);
   estimate.by = std::move(part.by), estimate.probes = std::move(part.probes);

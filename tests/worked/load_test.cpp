@@ -15,8 +15,8 @@ using testing::State;
 namespace {
 
 // [drag]
-/// Resistance of a fluid at a place in the plane, f = -c |v| v with its velocity v: a term without multipliers. Rows are
-/// those of a force with its sign reversed, -P' f, P = dy/dq of the place's pose y = (x, y, angle).
+/// Resistance of a fluid at a place in the plane, f = -c |v| v with its velocity v: a term without multipliers. Rows
+/// are those of a force with its sign reversed, -P' f, P = dy/dq of the place's pose y = (x, y, angle).
 class Drag final : public dynamics::Term {
  public:
   /// @param c  half the density times the area times the coefficient of resistance [kg/m]
@@ -30,7 +30,7 @@ class Drag final : public dynamics::Term {
 
   void tangent(const dynamics::Motion& motion, dynamics::Weights weights, MatrixXd& J) const override {
     dynamics::pose(at_, motion.q, motion.v, motion.a, pose_);
-    dynamics::add_geometric_stiffness(at_, pose_, force(), -weights.q, J);               // of P, at fixed f
+    dynamics::add_geometric_stiffness(at_, pose_, force(), -weights.q, J);                     // of P, at fixed f
     J -= pose_.P.transpose() * by_velocity() * (weights.q * pose_.dyd + weights.v * pose_.P);  // of f, by v(q, q')
   }
 

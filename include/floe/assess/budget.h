@@ -70,11 +70,8 @@ struct FinishedMotion {
 /// scenes with events that watch these.
 /// A fault of any rank leaves the part out on all ranks, with the reason. Collective on the communicator of the offline
 /// stage; up to 2000 elements every rank simulates its own copy.
-/// @param step       error of the step at the instants of `own`: where e_model is above 1 % and the time allows, y_cfr
-/// is
-///                   extrapolated (order 2) to steps of no length, too, and e_step subtracted
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-                               const ErrorPart& mesh, double allowed, const ErrorPart& step = {});
+                               const ErrorPart& mesh, double allowed);
 
 /// The error of the reduction where events change joints, for which estimate_error() has no equations: the full-order
 /// model (nlffr) of the same mesh is simulated, in the same steps,

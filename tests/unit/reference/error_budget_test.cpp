@@ -38,7 +38,7 @@ Budget budget_of(const std::string& text, double allowed) {
   step.none = all.step.none;
   step.probes = all.step.probes, step.t = all.step.t, step.errors = all.step.errors;
   all.mesh = assess::estimate_mesh_error(motion, own, allowed);
-  all.model = assess::estimate_model_error(motion, own, estimate, all.mesh, allowed, step);
+  all.model = assess::estimate_model_error(motion, own, estimate, all.mesh, allowed);
   std::vector<const assess::ErrorPart*> parts = {&reduction, &step, &all.mesh};
   if (all.model.none.empty()) parts.push_back(&all.model);
   all.total = assess::total_error(own, parts);
@@ -211,7 +211,7 @@ probes: {tip: {at: beam.end}}
                coarse = budget_of(fill(beam, {{"elements", "4"}, {"step", "1e-2"}}), 100);
   CHECK(fine.model.notes.empty());
   CHECK(fine.model.probes[0] < 0.01);
-  CHECK_THAT(coarse.model.by, Catch::EndsWith("and in steps twice as long"));
+  CHECK_THAT(coarse.model.by, Catch::EndsWith("and both in steps twice as long"));
   REQUIRE(coarse.model.notes.size() == 1);
   CHECK_THAT(coarse.model.notes[0], Catch::Contains("tip is left out"));
   CHECK(std::isnan(coarse.model.probes[0]));

@@ -137,6 +137,52 @@ TEST_CASE("error budget: parts and total of a motion whose joints change") {
   }
 }
 
+// Without damping the release sets vibrations free that the steps do not resolve, in either model alike: the part of
+// the step is nearly the whole. Where one model alone was extrapolated to steps of no length, parts of model and step
+// cancelled in the total (0.3 of the error).
+TEST_CASE("error budget: the total where steps resolve neither model") {
+  const char* const arms = R"yaml(
+gravity: [0, -9.81]
+bodies:
+  a:
+    mesh: {line: {from: [0, 0], to: [0.8, 0], elements: $elements}}
+    section: {A: 4e-4, I: 1e-8}
+    material: {E: 7e10, rho: 2700}
+    reduction: {modes: 4}
+  b: {like: a, initial: {position: [0.8, 0], angle: 0.5}}
+joints:
+  shoulder: {type: revolute, between: [ground, a.start]}
+  elbow: {type: revolute, between: [a.end, b.start]}
+  tip: {type: revolute, between: [ground, b.end]}
+motion: {end: 0.6, step: $step}
+events: {drop: {unlock: tip, $when}}
+probes:
+  angle: {joint: elbow, quantity: angle}
+  rate: {joint: elbow, quantity: rate}
+  tip: {at: b.end, quantity: position}
+)yaml";
+  const Switched moved(scene_of(arms, "at: 0.1234", "8", "5e-4"));
+  const History exact = move(scene_of(arms, "at: 0.1234", "16", "6.25e-5"), Formulation::cfr);
+  const assess::FinishedMotion motion = moved.motion(moved.scene);
+  const assess::Estimate full = assess::estimate_by_full_order(motion, moved.own, 100);
+  const assess::ErrorPart mesh = assess::estimate_mesh_error(motion, moved.own, 100),
+                          model = assess::estimate_model_error(motion, moved.own, full, mesh, 100),
+                          reduction = reduction_of(full);
+  const assess::StepError steps =
+      assess::estimate_step_error(moved.history.model, moved.start, moved.kept, moved.how, 0.1, 100);
+  assess::ErrorPart step;
+  step.probes = steps.probes, step.t = steps.t, step.errors = steps.errors;
+  const std::vector<double> total = assess::total_error(moved.own, {&reduction, &mesh, &model, &step});
+  for (std::size_t p = 0; p < total.size(); ++p) {
+    const std::string& probe = moved.history.model.probes[p].name;
+    const double error = vector_error(moved.history, exact, probe);
+    INFO(fmt::format("{}: error {:.4g}, total {:.4g} of reduction {:.3g}, model {:.3g}, mesh {:.3g}, step {:.3g}",
+                     probe, error, total[p], reduction.probes[p], model.probes[p], mesh.probes[p], step.probes[p]));
+    CHECK(total[p] > 0.5 * error);
+    CHECK(total[p] < 2 * error);
+  }
+}
+
 // Corotational elements do not converge behind the release of a beam that is bent so far, in a quarter of the step
 // either.
 TEST_CASE("error budget: a part ends where a better model stops behind an event") {
@@ -146,7 +192,7 @@ TEST_CASE("error budget: a part ends where a better model stops behind an event"
   CHECK_THROWS_AS(move(text, Formulation::cfr), solve::MotionStopped);
   const assess::ErrorPart model = assess::estimate_model_error(moved.motion(moved.scene), moved.own, {}, {}, 100);
   CHECK(model.none == "");
-  CHECK(model.by == "formulation cfr, same mesh");
+  CHECK_THAT(model.by, Catch::StartsWith("formulation cfr, same mesh"));
   CHECK(model.until == Approx(0.6));
   REQUIRE(model.notes.size() == 3);
   CHECK_THAT(model.notes[0], Catch::Contains("the simulation stopped at t = 0.6 of 0.8"));
