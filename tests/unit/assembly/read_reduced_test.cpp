@@ -159,6 +159,30 @@ TEST_CASE("a body from a file that is held otherwise than its modes is reported 
         line("beam", "nothing", "fixed at (0, 0)"));
 }
 
+TEST_CASE("a body from a file that another body hinges at its clamped frame is held as its modes") {
+  const Files files;
+  const std::string path = (files.folder.path / "hinged.h5").string();
+  const auto scene_of = [](const std::string& body, const std::string& axis) {
+    return scene::parse_scene(
+        "bodies: {b: {" + body +
+            "}, o: {rigid: {mass: 1, centre: [0, 0.5, 0], inertia: [1, 1, 1]}}}\njoints: {j: {type: "
+            "revolute, axis: [" +
+            axis + "], between: [o.centre, b.left]}}\n",
+        "s.yaml");
+  };
+  std::vector<std::string> ignored;
+  assembly::reduce_body(scene_of("mesh: {plate: {along: [1, 0, 0], across: [0, 1, 0], elements: [2, 2]}}, section: "
+                                 "{thickness: 0.01}, material: {E: 7e10, nu: 0.3, rho: 2700}, frame: {type: clamped, "
+                                 "at: left}, reduction: {modes: 2}",
+                                 "0, 1, 0"),
+                        "b", PETSC_COMM_WORLD, path, true, ignored);
+  const auto warnings = [&](const std::string& axis) {
+    return assembly::build(scene_of("reduced: " + path, axis), scene::Formulation::vm_md, PETSC_COMM_WORLD).warnings;
+  };
+  CHECK(warnings("0, 1, 0").empty());
+  CHECK(warnings("1, 0, 0").size() == 1);
+}
+
 TEST_CASE("a body that is reduced already is not reduced again") {
   const Files files;
   std::vector<std::string> warnings;
