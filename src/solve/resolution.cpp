@@ -57,6 +57,7 @@ double greatest_shift(const System& system, const std::vector<FrameInertia>& fra
   double size = 0, greatest = 0;
   for (const FrameInertia& frame : frames) size = std::max(size, frame.radius);
   for (const FrameInertia& frame : frames) {
+    if (size == 0) break;  // axes that follow the nodes of corotational bodies: where they are, the nodes tell
     const Index dimension = frame.centre_shift.rows();
     const double moved = (u - start).segment(frame.first, dimension).norm();
     const double beside = std::max(frame.radius > 0 ? frame.radius : size, moved);
