@@ -58,7 +58,8 @@ void SpatialAssembly::add_corotated_axes() {
   for (const auto& joint : plan_.joints)
     for (const Anchor& place : joint) add(place);
   for (std::size_t l = 0; l < plan_.loads.size(); ++l)
-    if (const Load& load = plan_.scene.loads[l]; load.axes == Load::Axes::place && !load.spread())
+    if (const Load& load = plan_.scene.loads[l];
+        (load.axes == Load::Axes::place || load.kind == Load::Kind::moment) && !load.spread())
       for (const LoadPart& part : parts_of_load(plan_, l)) add(part.at);
   for (std::size_t p = 0; p < plan_.probes.size(); ++p)
     if (has_place(plan_.scene.probes[p]))
@@ -75,7 +76,8 @@ std::vector<CarriedMass> SpatialAssembly::corotated_masses(int b) const {
 
 /// With A_f'A = exp(theta) of a node, X its place and x that of the mean, both undeformed in the axes of the body,
 ///
-///   sum (share A_f'(R - R_f) + A_f'A lead + (arm + ~lead) theta) = 0,   sum rotation theta = 0,
+///   sum (share A_f'(R - R_f) + A_f'A lead + (arm + ~lead) theta) = 0,
+///   sum (rotation theta + turn (A_f'(R - R_f) - (X - x))) = 0,
 ///
 /// theta by the skew part of A_f'A: sums of small motions from f as the mean has them, and exact where nodes lead
 /// others. On the last rank.
@@ -90,7 +92,7 @@ AxesTerms SpatialAssembly::rows_of_mean(const WholeAxes& mean, const Anchor& pla
       const Vector3d e = Vector3d::Unit(i % 3), m = (i < 3 ? arm : rotation).transpose() * e;
       Matrix3d B = 0.5 * skew(m);
       if (i < 3) B += e * weight.lead.transpose();
-      rows.push_back({i < 3 ? Vector3d(weight.share * e) : Vector3d::Zero(), B.reshaped()});
+      rows.push_back({i < 3 ? Vector3d(weight.share * e) : Vector3d(weight.turn.row(i - 3)), B.reshaped()});
     }
     terms.push_back(std::make_unique<AccompanyingAxes>(axes_of(body.place(weight.node)), std::vector<int>{}, mean.f,
                                                        mean.multipliers, std::move(rows)));

@@ -54,6 +54,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
       if (holds(6 * weight.node + d)) continue;
       if (d < 3) {
         at.S(d, 6 * i + d) = weight.share;
+        at.psi.col(6 * i + d) = weight.turn.col(d);
         continue;
       }
       at.psi.col(6 * i + d) = weight.rotation.col(d - 3);
@@ -184,7 +185,7 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   std::vector<std::pair<SpatialMarker, double>> parts;
   const bool corotated = slots_[place.body].corotated != nullptr, other = of_body && corotated;
-  if (corotated && load.axes != Load::Axes::place) {
+  if (corotated && load.axes != Load::Axes::place && !(rotations && find_mean(place))) {
     if (owner_) parts = corotated_parts(place);
   } else if (SpatialMarker at = marker(place); owner_ && !at.coordinates.empty()) {
     parts.emplace_back(std::move(at), 1.);

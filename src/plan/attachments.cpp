@@ -49,6 +49,7 @@ reduction::Attachment unit_load(const PlannedBody& body, const Anchor& place, in
     if (dof < values.first || dof >= values.end) continue;
     if (n < 6 || component < 3) values[dof + component] = weight.share;
     if (n < 6) continue;
+    for (int i = 0; component >= 3 && i < 3; ++i) values[dof + i] = weight.turn(component - 3, i);
     const Eigen::Vector3d moment = component < 3 ? weight.arm.row(component) : weight.rotation.row(component - 3);
     for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }

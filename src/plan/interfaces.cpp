@@ -75,6 +75,7 @@ Anchor Interface::sum(int side, Index vector) const {
       }
       at->share += factor * own.share, at->arm += factor * own.arm;
       at->rotation += factor * own.rotation, at->lead += factor * own.lead;
+      at->turn += factor * own.turn;
     }
   }
   sum.node = sum.averaging_weights.front().node;

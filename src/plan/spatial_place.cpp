@@ -45,13 +45,15 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
     if (fresh) all.push_back({node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
     return all[at->second];
   };
-  for (const auto& [node, share, arm] : nodes) {
+  for (const auto& [node, share, arm, turn, twist] : nodes) {
+    const Eigen::Matrix3d rotation = share * Eigen::Matrix3d::Identity() + twist;
     const auto c = carried.find(node);
     AveragingWeight& moves = weight(c == carried.end() ? node : c->second.independent_node);
     moves.share += share;
+    moves.turn += turn;
     if (c == carried.end()) {
       moves.arm += arm;
-      moves.rotation += share * Eigen::Matrix3d::Identity();
+      moves.rotation += rotation;
       continue;
     }
     const Eigen::Map<const Eigen::Matrix3d> S(c->second.own);
@@ -60,13 +62,13 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
     const Eigen::Map<const Eigen::Vector3d> lead(c->second.arm);
     moves.arm += arm * led - share * math::skew(lead);
     moves.lead += share * lead;
-    moves.rotation += share * led;
+    moves.rotation += rotation * led - turn * math::skew(lead);
     if (S.isZero(0)) continue;
     moves.apart -= share;
     AveragingWeight& own = weight(node);
     own.apart += share;
     own.arm += arm * S;
-    own.rotation += share * S;
+    own.rotation += rotation * S;
   }
   return all;
 }

@@ -24,7 +24,7 @@ std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedN
   for (const WeightedNode& at : nodes) {
     const PetscInt local = at.node - mesh.first_node;
     if (local < 0 || local >= mesh.owned_nodes) continue;
-    mine.push_back({{local, at.weight, at.arm}});
+    mine.push_back({{local, at.weight, at.arm, at.turn, at.twist}});
     for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes) {
       if (f.node != local || mesh.dimension != 3) continue;
       mine.back().independent_node = f.independent_node,
@@ -69,6 +69,7 @@ body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, co
         const Eigen::VectorXd motion = fem::nodal_motion(structure, values.begin(), static_cast<int>(each.at.node));
         sum.col(j) += each.at.weight * motion;
         if (d == 3) sum.col(j).head<3>() += each.at.arm * motion.tail<3>();
+        if (d == 3) sum.col(j).tail<3>() += each.at.turn * motion.head<3>() + each.at.twist * motion.tail<3>();
         if (each.independent_node >= 0)
           each.rotation.col(j) = fem::nodal_motion(structure, values.begin(), each.independent_node).tail<3>();
       }

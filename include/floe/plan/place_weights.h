@@ -22,6 +22,9 @@ struct PlaceMeasure {
 ///           membrane). Interior edges of elements that belong to the place as a whole do not count
 ///   points  else: equal weights
 ///
+/// The place rotates by sum w_i theta_i; of shells of one normal n about n by its displacements: n.theta =
+/// sum w_i (n x r_i).u_i / J, J = sum w_i |n x r_i|^2, r from the mean, with a term where nodes are not in one plane.
+///
 /// Hence sum w_i x_i is the centroid of the edge or area however its elements are graded, and even tension is exact.
 ///
 /// @param nodes    global, without repetition, the same on all ranks

@@ -20,7 +20,7 @@ namespace floe::plan {
 using namespace scene;
 
 /// How a node moves a place in space: u += share u_node + arm theta_node + 1/2 theta_node x (theta_node x lead),
-/// theta += rotation theta_node.
+/// theta += rotation theta_node + turn u_node.
 struct AveragingWeight {
   PetscInt node;  ///< global
   double share;
@@ -29,6 +29,7 @@ struct AveragingWeight {
   Eigen::Vector3d lead = Eigen::Vector3d::Zero();  ///< from it to those that follow it, times their shares
   double apart = 0;  ///< of moments besides `share`: those that nodes with rotations of their own take from the ones
                      ///< that they follow
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
 };
 
 /// A node that something acts on.

@@ -28,7 +28,7 @@ struct Grid {
     std::vector<double> found;
     Eigen::Vector3d sum = -centre;
     Eigen::Matrix3d arms = Eigen::Matrix3d::Zero();
-    for (const auto& [node, weight, arm] : plan::place_weights(mesh, nodes)) {
+    for (const auto& [node, weight, arm, turn, twist] : plan::place_weights(mesh, nodes)) {
       const auto& [x, y] = points[found.size()];
       sum += weight * Eigen::Vector3d(x, y, 0);
       arms += arm;
@@ -69,4 +69,33 @@ TEST_CASE("weights of places: edges by lengths, areas by areas, points alike") {
     if (quads) CHECK(area[0] == Approx(1.0 / 32));
     if (quads) CHECK(area[6] == Approx(1.0 / 8));
   }
+}
+
+// A rigid rotation rotates the place by itself, where nodes are not in one plane, too; drilling rotations of nodes by
+// themselves do not rotate it.
+TEST_CASE("weights of places: edges of flat and slightly curved shells rotate about their normal by displacements") {
+  const double camber = GENERATE(0., 0.05);
+  Grid grid(generate::ShellCells::quadrilaterals);
+  for (Eigen::Vector3d& x : grid.mesh.positions) x.z() = camber * x.y() * x.y();
+  std::vector<PetscInt> nodes;
+  std::vector<Eigen::Vector3d> places;
+  for (const double y : {0., 0.5, 1.})
+    places.emplace_back(1, y, camber * y * y), nodes.push_back(fem::nearest_node(grid.mesh, places.back()).node);
+  const auto weights = plan::place_weights(grid.mesh, nodes);
+  const auto rotation = [&](auto&& u, auto&& theta) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      sum +=
+          weights[i].weight * theta(places[i]) + weights[i].twist * theta(places[i]) + weights[i].turn * u(places[i]);
+    return sum;
+  };
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector3d w = Eigen::Vector3d::Unit(c), translation(0.3, -0.2, 0.7);
+    const auto rigid = [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(translation + w.cross(x)); };
+    const auto constant = [&](const Eigen::Vector3d&) { return w; };
+    CHECK((rotation(rigid, constant) - w).norm() < 1e-13);
+  }
+  const auto none = [](const Eigen::Vector3d&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
+  const auto drilling = [](const Eigen::Vector3d&) { return Eigen::Vector3d(Eigen::Vector3d::UnitZ()); };
+  if (camber == 0) CHECK(rotation(none, drilling).norm() < 1e-14);
 }
