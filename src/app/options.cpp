@@ -28,33 +28,75 @@ using Words = std::vector<std::string>;
 /// MatPartitioning of a mesh; PEP of vibrations about a rotation; KSP of the estimate of the error.
 const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_", "mesh_", "campbell_", "estimate_"};
 const std::string partitioning = "mesh_mat_partitioning_";
-/// Of PETSc's objects that have no prefix of their own, and of its viewers.
-const Words objects = {"mat_", "vec_", "bv_", "is_", "sf_", "vecscatter_", "viewer_", "draw_"};
-/// What PETSc itself reads, at its start or its end.
-const Words globals = {
-    "options_",          "log_",         "info",  "malloc",  "memory_view",       "objects_dump",
-    "get_total_flops",   "on_error_",    "help",  "version", "fp_trap",           "mpidump",
-    "citations",         "petsc_sleep",  "debug", "python",  "start_in_debugger", "stop_for_debugger",
-    "no_signal_handler", "error_output", "nox"};
+/// Of what PETSc itself, its objects without prefix and its viewers read while floe runs, or at the end.
+const Words objects = {"options_left",
+                       "options_view",
+                       "options_suppress_deprecated_warnings",
+                       "memory_view",
+                       "get_total_flops",
+                       "log_threshold",
+                       "citations",
+                       "mpidump",
+                       "build_twosided",
+                       "splitreduction_async",
+                       "psubcomm_type",
+                       "mat_view",
+                       "mat_factor_view",
+                       "mat_no_inode",
+                       "mat_inode_limit",
+                       "mat_no_unroll",
+                       "mat_ignore_lower_triangular",
+                       "mat_getrow_uppertriangular",
+                       "mat_seqaij_type",
+                       "mat_use_hash_table",
+                       "vec_view",
+                       "vec_view_stash",
+                       "vecscatter_merge",
+                       "is_view",
+                       "sf_type",
+                       "sf_rank_order",
+                       "sf_window_flavor",
+                       "sf_window_sync",
+                       "viewer_type",
+                       "viewer_view",
+                       "viewer_hdf5_collective",
+                       "viewer_hdf5_base_dimension2",
+                       "viewer_hdf5_sp_output",
+                       "viewer_hdf5_default_timestepping",
+                       "viewer_binary_filename",
+                       "viewer_binary_mpiio",
+                       "viewer_binary_skip_header",
+                       "viewer_binary_skip_info",
+                       "viewer_binary_skip_options"};
+/// Of these, what PETSc reads at its end.
+const Words at_end = {"options_left", "options_view",    "options_suppress_deprecated_warnings",
+                      "memory_view",  "get_total_flops", "log_threshold",
+                      "citations",    "mpidump"};
 /// Whose solver reads what a user of PETSc knows without prefix.
 const std::vector<std::pair<std::string, std::string>> homes = {{"ts_", "motion_"},  {"snes_", "motion_"},
                                                                 {"ksp_", "motion_"}, {"pc_", "derivatives_"},
                                                                 {"eps_", "modes_"},  {"st_", "modes_"}};
 
-bool begins(const std::string& name, const std::string& with) { return name.rfind(with, 0) == 0; }
-bool begins(const std::string& name, const Words& with) {
-  for (const std::string& word : with)
-    if (begins(name, word)) return true;
-  return false;
+bool begins_with_one_of(const std::string& name, const Words& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& word) { return name.starts_with(word); });
+}
+bool is_one_of(const std::string& name, const Words& words) {
+  return std::find(words.begin(), words.end(), name) != words.end();
+}
+
+/// Of solvers, bases (BV) and factors, whose options are judged by objects that take them.
+bool is_judged(const std::string& name) {
+  return begins_with_one_of(name, solvers) || begins_with_one_of(name, {"bv_", "mat_mumps_"});
 }
 
 /// The option that was probably meant, or empty.
 std::string meant(const std::string& name) {
   for (const auto& [family, prefix] : homes)
-    if (begins(name, family)) return prefix + name;
-  std::string global = math::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
-                                            "malloc_dump", "malloc_view", "memory_view", "help"});
-  if (!global.empty()) return global;
+    if (name.starts_with(family)) return prefix + name;
+  Words known = objects;
+  known.insert(known.end(), {"options_file", "log_view", "log_view_memory", "log_trace", "info", "malloc_debug",
+                             "malloc_dump", "malloc_view", "on_error_abort", "fp_trap", "help", "version"});
+  if (const std::string global = math::nearest(name, known); !global.empty()) return global;
   const auto end = name.find('_');
   if (end == std::string::npos) return "";
   const std::string prefix = math::nearest(name.substr(0, end + 1), solvers);
@@ -79,8 +121,8 @@ void for_each_left(const std::function<void(const std::string& name, const std::
 }  // namespace
 
 std::string option_fault(const std::string& name, const std::string& value) {
-  if (begins(name, objects) || begins(name, globals)) return "";
-  if (!begins(name, solvers)) {
+  if (is_one_of(name, objects)) return "";
+  if (!is_judged(name) && !name.starts_with("draw_")) {
     const std::string near = meant(name);
     return fmt::format("option -{}: unknown prefix; {}", name,
                        near.empty() ? fmt::format("expected -{}..., or an option of PETSc as a whole (-log_view)",
@@ -94,15 +136,13 @@ std::string option_fault(const std::string& name, const std::string& value) {
 
 namespace {
 
-std::string written(const Option& option) {
-  return fmt::format("-{}{}{}", option.first, option.second.empty() ? "" : " ", option.second);
-}
-
 /// Commands that have a solver of this prefix; none: any may have.
 Words commands_with(const std::string& name) {
-  if (begins(name, "campbell_")) return {"campbell"};
-  if (begins(name, "motion_")) return {"run", "compare", "tradeoff", "sweep", "static", "campbell"};
-  return {};
+  if (name.starts_with("campbell_")) return {"campbell"};
+  Words commands = {"run", "compare", "tradeoff", "sweep", "static", "campbell"};
+  if (begins_with_one_of(name, {"modes_", "derivatives_", "ranking_", "mesh_"}))
+    commands.insert(commands.end(), {"modes", "reduce", "check"});
+  return begins_with_one_of(name, solvers) ? commands : Words();
 }
 
 /// Of the solvers' options; they are kept, for what goes wrong may be their fault.
@@ -118,19 +158,16 @@ void check_options(const std::string& command) {
   std::vector<Option>& given = solver_options();
   given.clear();
   for_each_left([&](const std::string& name, const std::string& value) {
-    if (begins(name, solvers)) given.emplace_back(name, value);
+    if (is_judged(name)) given.emplace_back(name, value);
     const std::string fault = option_fault(name, value);
     const Words commands = commands_with(name);
     if (!fault.empty())
       faults.push_back(fault);
-    else if (!commands.empty() && std::find(commands.begin(), commands.end(), command) == commands.end())
+    else if (!commands.empty() && !is_one_of(command, commands))
       faults.push_back(fmt::format("option {}: floe {} has no solver with this prefix; expected it with {}",
                                    written({name, value}), command, fmt::join(commands, ", ")));
   });
-  if (faults.empty())
-    for (const Option& option : unread(given))
-      faults.push_back(
-          fmt::format("option {}: unknown; floe <command> SCENE -help lists the solvers' options", written(option)));
+  if (faults.empty()) faults = faults_of(given);
   if (!faults.empty()) throw InputError(faults);
 }
 
@@ -153,7 +190,7 @@ void check_unused() {
   int ranks = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   for_each_left([&](const std::string& name, const std::string& value) {
-    if (begins(name, globals) || (ranks == 1 && begins(name, partitioning))) return;
+    if (is_one_of(name, at_end) || (ranks == 1 && name.starts_with(partitioning))) return;
     faults.push_back(fmt::format("option {}: not used in this run; its results are complete", written({name, value})));
   });
   if (!faults.empty()) throw InputError(faults);

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,10 +8,13 @@ namespace floe::app {
 /// A name without its dash and a value, empty if there is none.
 using Option = std::pair<std::string, std::string>;
 
-/// Which of the options none of floe's solvers reads, found before any of them is made for a scene: each prefix has a
-/// solver of its kind made with two unknowns, which takes the options from a copy of PETSc's table. What PETSc reads
-/// only while it solves (inner solvers, factors of MUMPS, viewers and monitors) is not judged.
-/// @throws InputError  an option has a value that it cannot have. Rank-local.
-std::vector<Option> unread(const std::vector<Option>& options);
+/// What is wrong with options of floe's solvers, a line for each, found before any of these is made for a scene: each
+/// prefix has a solver of its kind made with two unknowns, which takes the options from a copy of PETSc's table. So
+/// have the solvers within a preconditioner that the options select. An option that none of them reads is unknown, or
+/// of a type that is not selected; a value that PETSc rejects is named. Rank-local.
+std::vector<std::string> faults_of(const std::vector<Option>& options);
+
+/// -NAME VALUE
+std::string written(const Option& option);
 
 }  // namespace floe::app

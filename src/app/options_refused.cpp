@@ -32,6 +32,7 @@ const std::vector<Rule>& rules() {
        "a simulation ends, and is interrupted by events, at the end of a step"},
       {"ts_init_time", {"0"}, {}, "a simulation begins at t = 0"},
       {"ts_time_span", {}, {}, "motion.output of the scene sets the output times"},
+      {"ts_view_pre", {}, {}, "PETSc 3.18 aborts in it"},
       {"ts_monitor_cancel", off, {}, "results are written by a monitor"},
       {"ts_rhs_jacobian_test_mult", off, {}, "the equations of motion have no right-hand side function"},
       {"ts_rhs_jacobian_test_mult_transpose", off, {}, "the equations of motion have no right-hand side function"},
@@ -72,6 +73,7 @@ const std::vector<Rule>& rules() {
       {"eps_hermitian", {}, {}, "modes solve a generalized eigenproblem with K and M"},
       {"eps_non_hermitian", {}, {}, "modes solve a generalized eigenproblem with K and M"},
       {"pep_type", {}, {"jd"}, "SLEPc 3.18 aborts in it for dense matrices"},
+      {"mat_partitioning_nparts", {}, {}, "each rank has one part of a mesh"},
       {"eps_conv_user", {}, {}, "there is no such function"},
       {"eps_stop_user", {}, {}, "there is no such function"},
   };
@@ -87,10 +89,10 @@ bool ends_in(std::string_view name, std::string_view tail) {
 std::string refused_viewer(const std::string& name, const std::string& value) {
   const bool views = name.find("_view") != std::string::npos || name.find("_monitor") != std::string::npos ||
                      name.find("_converged_reason") != std::string::npos;
-  if (!views) return "";
+  if (!views && !name.starts_with("draw_")) return "";
   for (const char* kind : {"socket", "saws", "matlab"})
     if (value.starts_with(kind)) return fmt::format("option -{} {}: is not supported", name, value);
-  const Words windows = {"_monitor_lg", "_monitor_draw", "_monitor_sp", "_monitor_envelope", "_draw"};
+  const Words windows = {"_monitor_lg", "_monitor_draw", "_monitor_sp", "_monitor_envelope", "_draw", "draw_"};
   const bool draws = value.starts_with("draw") || std::any_of(windows.begin(), windows.end(), [&](std::string_view w) {
                        return name.find(w) != std::string::npos;
                      });

@@ -36,22 +36,30 @@ void check_integers(MatPartitioning partitioning) {
                    "; expected metis, current, ...");
 }
 
+/// With its options.
+PartitioningHandle created(MPI_Comm comm, const std::string& prefix) {
+  register_metis();
+  PartitioningHandle partitioning;
+  petsc::check(MatPartitioningCreate(comm, partitioning.out()));
+  petsc::check(PetscObjectSetOptionsPrefix(reinterpret_cast<PetscObject>(partitioning.get()), prefix.c_str()));
+  petsc::check(MatPartitioningSetType(partitioning, "metis"));
+  petsc::check_options(MatPartitioningSetFromOptions(partitioning), prefix + "mat_partitioning");
+  check_integers(partitioning);
+  return partitioning;
+}
+
 }  // namespace
+
+void check_partitioning_options(const std::string& prefix) { created(PETSC_COMM_SELF, prefix); }
 
 std::vector<int> partition(const RawMesh& mesh) {
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
   if (ranks == 1) return std::vector<int>(mesh.positions.size(), 0);
-  register_metis();
+  const PartitioningHandle partitioning = created(mesh.comm, "mesh_");
   const petsc::MatHandle graph = adjacency(mesh);
-  PartitioningHandle partitioning;
-  petsc::check(MatPartitioningCreate(mesh.comm, partitioning.out()));
-  petsc::check(PetscObjectSetOptionsPrefix(reinterpret_cast<PetscObject>(partitioning.get()), "mesh_"));
   petsc::check(MatPartitioningSetAdjacency(partitioning, graph));
   petsc::check(MatPartitioningSetNParts(partitioning, ranks));
-  petsc::check(MatPartitioningSetType(partitioning, "metis"));
-  petsc::check_options(MatPartitioningSetFromOptions(partitioning), "mesh_mat_partitioning");
-  check_integers(partitioning);
   petsc::IsHandle parts;
   petsc::check(MatPartitioningApply(partitioning, parts.out()));
   const PetscInt* indices;

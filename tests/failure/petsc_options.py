@@ -52,6 +52,7 @@ SOME = {
         derivatives_pc_type jacobi | derivatives_ksp_type cg | derivatives_ksp_type pipelcg | derivatives_pc_factor_in_place
         derivatives_pc_factor_mat_ordering_type wbm | derivatives_mat_mumps_icntl_7 1 | derivatives_ksp_diagonal_scale
         estimate_pc_type none | estimate_ksp_type pipelcg | estimate_ksp_type gmres
+        motion_ts_view_pre | motion_snes_view_pre ::ascii_info | mesh_mat_partitioning_type foo | mesh_mat_partitioning_nparts 3
         motion_ts_foo 1 | motion_ksp_gmres_restart 5 | campbell_pep_nev 3 | motion_ksp_rtol abc | ranking_ts_dt 0.001""",
     "nlffr": "motion_pc_type mg | motion_pc_type ilu | motion_pc_type gamg | motion_snes_type ksponly | modes_eps_tol 1e-9",
     "static": """

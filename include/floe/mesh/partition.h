@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "floe/mesh/raw_mesh.h"
 
 namespace floe::mesh {
@@ -11,6 +13,10 @@ namespace floe::mesh {
 /// @throws RunError  the partitioner failed
 /// Collective.
 std::vector<int> partition(const RawMesh& mesh);
+
+/// Lets a partitioner without a mesh take the options of a prefix.
+/// @throws InputError  an option that cannot be taken. Rank-local.
+void check_partitioning_options(const std::string& prefix);
 
 /// Number of edges of the graph whose ends are on different ranks. Collective.
 long long edge_cut(const RawMesh& mesh, const std::vector<int>& ranks);
