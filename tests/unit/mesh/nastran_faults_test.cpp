@@ -95,6 +95,44 @@ TEST_CASE("wrong beams of Nastran are refused with line and field") {
   CHECK(said(bar + "BAROR,,5,,,0.,0.,1.,XGO\nCBAR,9,,1,2,,,,GGG\n") == "nothing was thrown");
 }
 
+TEST_CASE("constants of Nastran outside their range are refused with field and range") {
+  const std::pair<std::string, const char*> after_square[] = {
+      {"MAT1,4\n", "MAT1: field 3 to 4 expect two of E, G and nu"},
+      {"MAT1,4,,1.\n", "expect two of E, G and nu"},
+      {"MAT1,4,-1.,,.3\n", "expect E and G greater than 0"},
+      {"MAT1,4,1.,-1.\n", "expect E and G greater than 0"},
+      {"MAT1,4,1.,,.6\n", "MAT1: field 5 expects nu between -1 and 1/2, found 0.6"},
+      {"MAT1,4,1.,1.,-1.5\n", "expects nu between -1 and 1/2"},
+      {"MAT1,4,1.,,.3,-1.\n", "MAT1: field 6 expects a density that is not negative"},
+      {"MAT8,4,1.,1.,1.,1.\n", "MAT8: field 5 expects nu12^2 < E1 / E2"},
+      {"MAT8,4,0.,1.,.3,1.\n", "MAT8: field 3"},
+      {"MAT8,4,1.,1.,.3,1.,,,-1.\n", "expects a density that is not negative"},
+      {"MAT2,4,1.,2.,0.,1.,0.,1.\n", "MAT2: field 4 expects G12^2 < G11 G22"},
+      {"MAT2,4,1.,0.,1.,1.,0.,1.\n", "MAT2: field 5 is not 0: materials are orthotropic in their own axes"},
+      {"MAT2,4,1.,0.,0.,1.,1.,1.\n", "MAT2: field 7 is not 0"},
+      {"MAT2,4,1.,0.,0.,1.,0.,1.,-1.\n", "expects a density that is not negative"},
+      {"PELAS,9,-1.\n", "expects a stiffness that is not negative"},
+      {"PBUSH,9,K,-1.\n", "expects a stiffness that is not negative"},
+      {"PROD,9,1,.1,-1.\n", "expects J that is not negative"},
+      {"CONROD,70,1,2,1,.1,-1.\n", "expects J that is not negative"},
+      {"PROD,9,1,0.\n", "the area"},
+      {"PTUBE,9,1,.1,-.01\n", "expects a wall of at most half the diameter"},
+      {"PTUBE,9,1,.1,.01,,.2\n", "PTUBE: field 7 differs from field 4: tubes with taper are not read"},
+      {"CONM2,9,1,,-1.\n", "expects a mass that is not negative"},
+      {"CQUAD4,2,3,1,2,3,4\n,,,.01,.01\n", "expected a thickness at each grid, or at none"},
+      {"CQUAD4,2,3,1,2,3,4\n,,,-.01,-.01,-.01,-.01\n", "expects thicknesses greater than 0"},
+      {"RBE2,70,1,12,3\n", "rigid links constrain all three translations"},
+      {"RBE2,70,1,1237,3\n", "rigid links constrain all three translations"}};
+  for (const auto& [cards, text] : after_square) {
+    INFO(cards);
+    CHECK_THAT(said(square + cards), Contains(text));
+  }
+  CHECK(said(square + "MAT1,4,1.,1.,-.5\nMAT1,5,,1.,.5\nMAT1,6,1.,.4\nMAT8,7,1.,1.,.99,1.\nPTUBE,9,1,.1,.05,,.1\n") ==
+        "nothing was thrown");
+  CHECK_THAT(all_of(read("counted.bdf", square + "MAT1,4,1.,1.,.3,,,,.1\nMAT8,5,1.,1.,.3,1.\n,,,,,,,,\n,.1\n").notices),
+             Contains("MAT1 G") && Contains("GE"));
+}
+
 TEST_CASE("bulk data that ends early is refused, or lacks what follows") {
   for (std::size_t size = 1; size < square.size(); size += 3) {
     INFO("size " << size);
