@@ -183,9 +183,9 @@ const std::vector<OptionReader>& option_readers() {
 }
 
 void read_inner(const std::string& prefix) {
-  constexpr std::pair<KSPType, PCType> types[] = {{KSPPREONLY, PCLU},       {KSPPREONLY, PCILU},  {KSPPREONLY, PCBJACOBI},
-                                                  {KSPPREONLY, PCREDUNDANT}, {KSPCHEBYSHEV, PCSOR}, {KSPCG, PCJACOBI},
-                                                  {KSPGMRES, PCNONE}};
+  constexpr std::pair<KSPType, PCType> types[] = {
+      {KSPPREONLY, PCLU},    {KSPPREONLY, PCILU}, {KSPPREONLY, PCBJACOBI}, {KSPPREONLY, PCREDUNDANT},
+      {KSPCHEBYSHEV, PCSOR}, {KSPCG, PCJACOBI},   {KSPGMRES, PCNONE}};
   for (const auto& [type, preconditioner] : types) read_linear(prefix, type, preconditioner);
 }
 

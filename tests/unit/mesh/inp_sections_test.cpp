@@ -58,7 +58,8 @@ TEST_CASE("dimensions of profiles are positive, and walls fit into them") {
 }
 
 TEST_CASE("one dimension of a profile is a square's side or a circle's radius, and said so") {
-  const auto square = deck(profile("RECT", "2")), circle = deck(profile("CIRC", "2")), ellipse = deck(profile("CIRC", "2, 3"));
+  const auto square = deck(profile("RECT", "2")), circle = deck(profile("CIRC", "2")),
+             ellipse = deck(profile("CIRC", "2, 3"));
   CHECK(square.deck.beam_sections.at(0).dimensions == std::vector<double>{2, 2});
   CHECK_THAT(notices_of(square), Contains("has one dimension: it is read as a square"));
   CHECK(circle.deck.beam_sections.at(0).dimensions == std::vector<double>{2});
@@ -103,7 +104,9 @@ TEST_CASE("plies: each has a thickness and a material; symmetric ones follow in 
 }
 
 TEST_CASE("offsets of shells are numbers or sides") {
-  const auto offset = [](const std::string& text) { return "*SHELL SECTION, ELSET=E, MATERIAL=M, OFFSET=" + text + "\n1\n"; };
+  const auto offset = [](const std::string& text) {
+    return "*SHELL SECTION, ELSET=E, MATERIAL=M, OFFSET=" + text + "\n1\n";
+  };
   CHECK(deck(offset("SPOS")).deck.shell_sections.back().offset == 0.5);
   CHECK(deck(offset("sneg")).deck.shell_sections.back().offset == -0.5);
   CHECK(deck(offset("2.5D-1")).deck.shell_sections.back().offset == 0.25);
@@ -115,10 +118,12 @@ TEST_CASE("stiffnesses of shells: 21 numbers without a thickness, or a material 
   const std::string own = "*SHELL GENERAL SECTION, ELSET=E",
                     numbers = "\n1, 0, 1, 0, 0, 1, 0, 0\n0, 1, 0, 0, 0, 0, 1, 0\n0, 0, 0, 0, 1\n";
   CHECK(said(own + numbers) == "nothing was thrown");
-  CHECK_THAT(said(own + ", OFFSET=.5" + numbers), Contains("by its stiffness has no thickness, and is read without OFFSET="));
+  CHECK_THAT(said(own + ", OFFSET=.5" + numbers),
+             Contains("by its stiffness has no thickness, and is read without OFFSET="));
   CHECK_THAT(said(own + "\n1, 0, x\n0\n0\n"), Contains("the 21 numbers of a stiffness"));
   CHECK_THAT(said(own + "\n1, 0\n"), Contains("the 21 numbers of a stiffness"));
-  CHECK_THAT(said(own + ", MATERIAL=M, DENSITY=1\n1\n"), Contains("with a material is read without DENSITY=: expected *DENSITY"));
+  CHECK_THAT(said(own + ", MATERIAL=M, DENSITY=1\n1\n"),
+             Contains("with a material is read without DENSITY=: expected *DENSITY"));
   CHECK(said(own + ", MATERIAL=M\n1\n") == "nothing was thrown");
   CHECK_THAT(notices_of(deck(own + numbers + "1, 2, 3\n")), Contains("thermal forces are ignored"));
 }
@@ -126,21 +131,26 @@ TEST_CASE("stiffnesses of shells: 21 numbers without a thickness, or a material 
 TEST_CASE("transverse shear stiffnesses belong to the shell section before them") {
   const std::string shear = "*TRANSVERSE SHEAR STIFFNESS\n";
   for (const char* bad : {"0, 1", "1, -1"})
-    CHECK_THAT(said(shear + bad + "\n"), Contains("sections.inp:15: *TRANSVERSE SHEAR STIFFNESS expects K11 and K22 greater than 0"));
+    CHECK_THAT(said(shear + bad + "\n"),
+               Contains("sections.inp:15: *TRANSVERSE SHEAR STIFFNESS expects K11 and K22 greater than 0"));
   CHECK_THAT(said(shear + "x\n"), Contains("K11, K22, K12"));
-  const std::pair<const char*, const char*> means[] = {
-      {"4", "shear by K11,"}, {"4, 4", "shear by K11,"}, {"4, 8, 0", "the mean of K11 and K22"}, {"6, 6, 1", "the mean of"}};
+  const std::pair<const char*, const char*> means[] = {{"4", "shear by K11,"},
+                                                       {"4, 4", "shear by K11,"},
+                                                       {"4, 8, 0", "the mean of K11 and K22"},
+                                                       {"6, 6, 1", "the mean of"}};
   for (const auto& [values, says] : means) CHECK_THAT(notices_of(deck(shear + values + "\n")), Contains(says));
   CHECK(deck(shear + "4, 8\n").deck.shell_sections.back().shear == 6);
   CHECK_THAT(notices_of(deck(profile("RECT", "1, 1") + shear + "4\n")), Contains("beams have no shear deformation"));
 }
 
 TEST_CASE("*TRANSFORM: types, points and nodes that have axes") {
-  const std::string more = "*NODE\n5, 1, 0\n6, 2, 0\n7, 2, 1\n*ELEMENT, TYPE=S3, ELSET=E\n3, 5, 6, 7\n*NSET, NSET=h\n2, 5\n";
+  const std::string more =
+      "*NODE\n5, 1, 0\n6, 2, 0\n7, 2, 1\n*ELEMENT, TYPE=S3, ELSET=E\n3, 5, 6, 7\n*NSET, NSET=h\n2, 5\n";
   const std::string pin = "*EQUATION\n2\n2,1,1.,5,1,-1.\n2\n2,2,1.,5,2,-1.\n2\n2,3,1.,5,3,-1.\n";
   CHECK(said(more + pin) == "nothing was thrown");
   CHECK(said(more + "*TRANSFORM, NSET=h\n0, 1, 0, -1, 0, 0\n" + pin) == "nothing was thrown");
-  CHECK_THAT(said(more + "*TRANSFORM, NSET=h, TYPE=X\n1, 0, 0, 0, 1, 0\n"), Contains("*TRANSFORM expects TYPE=R, C or S, found 'X'"));
+  CHECK_THAT(said(more + "*TRANSFORM, NSET=h, TYPE=X\n1, 0, 0, 0, 1, 0\n"),
+             Contains("*TRANSFORM expects TYPE=R, C or S, found 'X'"));
   CHECK_THAT(said(more + "*TRANSFORM, NSET=h, TYPE=S\n1, 0, 0, 0, 1, 0\n" + pin),
              Contains("*TRANSFORM of nodes of an *EQUATION is read with TYPE=R or C"));
   for (const char* line : {"\n1, 0, 0, 2, 0, 0\n", ", TYPE=C\n0, 0, 0, 1, 0, 0\n"})
