@@ -85,6 +85,7 @@ class PlanarAssembly {
   void set_start(Model& model);
   void set_full_order_start(int body, Vec U, Vec V);
   dynamics::Marker marker(const Anchor& place);
+  dynamics::Marker with_mesh_axes(const Anchor& place);  // axes of the mesh, rotated with the section
   dynamics::Marker density(int body, const body::Inertia& inertia);
   Eigen::Vector3d pose_at(const dynamics::Marker& marker, const Eigen::VectorXd& q) const;
 

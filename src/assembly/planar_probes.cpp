@@ -12,6 +12,12 @@ Eigen::Vector2d PlanarAssembly::in_mesh_axes(const Anchor& place) const {
   return body.frame_origin + rotation_matrix(body.frame_angle) * place.x.head<2>();
 }
 
+dynamics::Marker PlanarAssembly::with_mesh_axes(const Anchor& place) {
+  dynamics::Marker at = marker(place);
+  if (place.body >= 0) at.angle0 -= plan_.bodies[place.body].frame_angle;
+  return at;
+}
+
 std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) {
   const Anchor& probe = plan_.probes[p][0];
   std::vector<Anchor> places = plan_.probe_frames[p];
@@ -71,7 +77,7 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
       if (owner_) probe.start_relative = pose_at(*probe.other, q);
     }
     probe.connections = measured(connections_, plan_.scene, spec);
-    if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
+    if (spec.relative_to) probe.relative_to = with_mesh_axes(plan_.probes[p][1]);
     if (const auto axes = body_axes_.find(place.body);
         spec.quantity == Probe::Quantity::deflection && axes != body_axes_.end() && !probe.frame) {
       probe.relative_to = dynamics::Marker::ground({0, 0});
