@@ -1,9 +1,11 @@
 #include "floe/reduction/basis.h"
 
+#include <fmt/format.h>
 #include <petscblaslapack.h>
 #include <petscsf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -219,6 +221,36 @@ void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std
     if (suspect(columns[i])) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * whole[i];
 }
 
+/// How many columns can be independent: dofs with mass in which some column moves, and no more than those with mass
+/// without the conditions of the frame. Collective.
+Eigen::Index most_independent(const fem::Structure& structure, const fem::FieldRows& X) {
+  const petsc::VecHandle masses = fem::field(structure);
+  check(MatGetDiagonal(fem::mass(structure, {}), masses));
+  petsc::Values mass(masses);
+  std::array<PetscInt, 2> counts{};  // with mass; of these, those in which columns move
+  for (PetscInt i = 0; i < structure.owned_dofs(); ++i) {
+    if (!(mass.begin()[i] > 0)) continue;
+    ++counts[0];
+    counts[1] += !X.row(i).isZero(0);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 2, MPIU_INT, MPI_SUM, structure.mesh.comm);
+  return std::min(counts[0] - structure.rigid_motion_count(), counts[1]);
+}
+
+/// Of more columns than dofs those with the smallest new parts are dropped: next to nothing is new in them but
+/// round-off of the others.
+void drop_surplus(Eigen::Index limit, std::vector<Column>& columns, std::vector<ColumnOrigin>& origins) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].kept) kept.push_back(i);
+  std::stable_sort(kept.begin(), kept.end(),
+                   [&](std::size_t a, std::size_t b) { return columns[a].share > columns[b].share; });
+  for (auto i = static_cast<std::size_t>(limit); i < kept.size(); ++i) {
+    columns[kept[i]].kept = false;
+    origins[kept[i]].dropped = fmt::format("the body has only {} elastic dofs", limit);
+  }
+}
+
 /// The columns that are kept, with M as inner product.
 void insert(const fem::Structure& structure, const fem::FieldRows& X, const std::vector<Column>& columns,
             Basis& basis) {
@@ -253,6 +285,7 @@ Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidat
   basis.origins = std::move(origins);
   std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
   drop_drilling(structure, candidates, columns);
+  drop_surplus(most_independent(structure, candidates), columns, basis.origins);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     basis.origins[i].new_part = columns[i].share;
     basis.origins[i].kept = columns[i].kept;

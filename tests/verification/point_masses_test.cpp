@@ -69,3 +69,27 @@ TEST_CASE("point masses: at coordinates as at a name, and refused where there is
   CHECK_THROWS_WITH(omega_of(bar("mass: 0")), Catch::Contains("bodies.bar.masses.disc.mass"));
   CHECK_THROWS_WITH(omega_of(bar("mass: 1, inertia: [1, 1, 3]")), Catch::Contains("which no body has"));
 }
+
+// The attachment modes of both ends and of the mass span all elastic dofs of four elements, and round-off offers more.
+TEST_CASE("point masses: a basis that is complete has as many vectors as the body has elastic dofs") {
+  const History at = move(R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  s:
+    mesh: {line: {from: [0.1, 0, 0], to: [0.5, 0, 0.05], elements: 4}}
+    section: {shape: tube, radius: 0.01, wall: 0.002, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    masses: {m: {at: middle, mass: 0.3, offset: [0, 0.03, 0.02], inertia: [1e-4, 2e-4, 2e-4]}}
+  p: {rigid: {mass: 1, centre: [0.7, 0, 0], inertia: [0.01, 0.01, 0.01]}}
+  h: {rigid: {mass: 3, centre: [0, 0, 0], inertia: [0.1, 0.1, 0.1]}}
+joints:
+  g: {type: driven, between: [ground, h.centre], axis: [0, 0, 1], angle: "5*t"}
+  f: {type: fixed, between: [{body: h, node: [0.1, 0, 0]}, s.start]}
+  k: {type: fixed, between: [s.end, {body: p, node: [0.5, 0, 0.05]}]}
+probes: {tip: {at: s.end}}
+motion: {end: 0.01, step: 1e-3}
+)yaml",
+                          Formulation::vm_md);
+  CHECK(at.model.bodies[0].columns <= 24);
+  CHECK(std::isfinite(at["tip.z"].back()));
+}

@@ -13,7 +13,7 @@ struct ColumnOrigin {
   double new_part = 1;  ///< share of the scaled basis vector that the basis vectors before it lack
   bool kept = true;
   double interaction = 0;         ///< derivatives chosen by count: modal interaction relative to the maximum
-  std::string dropped = {};       ///< attachment modes that are not even candidates: why, `repeats tip.fx`
+  std::string dropped = {};       ///< why, where it is not its new part: `repeats tip.fx` of an attachment mode
   bool of_higher_vector = false;  ///< an attachment mode that is (Attachment)
 };
 
@@ -26,7 +26,7 @@ struct Basis {
 };
 
 /// Orthonormalises candidates in their order, in the M inner product; a column whose new part is below `tolerance`
-/// times its norm adds nothing and is dropped.
+/// times its norm adds nothing and is dropped. Of more columns than elastic dofs those with the smallest new parts are.
 ///
 /// @param candidates  in the floating frame; at least one
 /// Collective. Cholesky of the Gram matrix, again and again until it is 1: two or three passes over the elements and

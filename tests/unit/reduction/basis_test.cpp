@@ -63,6 +63,27 @@ TEST_CASE("columns that add nothing are dropped and named; the kept ones span al
   CHECK(Eigen::ColPivHouseholderQR<MatrixXd>(both).setThreshold(1e-10).rank() == 3);
 }
 
+TEST_CASE("a basis has no more vectors than its body has elastic dofs; those with the smallest new parts are dropped") {
+  const fem::Structure s = testing::straight(PETSC_COMM_WORLD, 5, 1, {50, 1, 1, 0.1});
+  const Eigen::Index dofs = s.dofs() - 3;
+  testing::Random random(62);
+  MatrixXd given = random.matrix(s.dofs(), dofs + 2);
+  for (const Eigen::Index j : {Eigen::Index(4), dofs + 1})  // next to nothing is new, as of round-off
+    given.col(j) = given.col(0) + given.col(1) + 1e-5 * given.col(j);
+  reduction::Columns candidates;
+  for (Eigen::Index j = 0; j < given.cols(); ++j) candidates.push_back(testing::field_of(s, given.col(j)));
+  const reduction::Basis basis =
+      reduction::orthonormal_basis(s, candidates, std::vector<reduction::ColumnOrigin>(given.cols()), 1e-7);
+  REQUIRE(basis.columns == dofs);
+  for (Eigen::Index j = 0; j < given.cols(); ++j) {
+    const bool kept = j != 4 && j != dofs + 1;
+    CHECK(basis.origins[j].kept == kept);
+    CHECK(basis.origins[j].dropped == (kept ? "" : "the body has only 15 elastic dofs"));
+  }
+  const MatrixXd V = testing::columns_of(s, basis);
+  CHECK((mass_form(s, V) - MatrixXd::Identity(dofs, dofs)).cwiseAbs().maxCoeff() < 1e-13);
+}
+
 TEST_CASE("eight hinged modes have 36 derivatives, of which 17 are independent") {
   // sin((i - j) x) and sin((i + j) x) for i, j <= 8, with x for the movable end: 2 m + 1
   const PetscInt n = 64;
