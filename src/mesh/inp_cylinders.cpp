@@ -245,7 +245,9 @@ void assign_cylinders(MPI_Comm comm, InpReading& reading) {
   if (!variants.empty())
     reading.notices.push_back(reading.faults.text_of(reading.cylinders.front().where) +
                               ": cylindrical orientations have " + std::to_string(variants.size()) +
-                              " different directions at the centres of their shells");
+                              " different directions at the centres of their shells; direction 1 is the axis after "
+                              "the one about the normal, the tangential one of three where this is radial (Abaqus), "
+                              "where CalculiX takes the radial one");
 }
 
 }  // namespace floe::mesh

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -87,6 +89,13 @@ double size_of(const std::vector<Labelled>& nodes) {
   return size;
 }
 
+Labelled mean_of(const std::vector<Labelled>& nodes) {
+  Labelled mean{0, {0, 0, 0}};
+  for (const auto& node : nodes)
+    for (int i = 0; i < 3; ++i) mean.x[i] += node.x[i] / static_cast<double>(nodes.size());
+  return mean;
+}
+
 constexpr double near_enough = 1e-6;  // of the size of the set
 
 /// *MPC TIE and PIN: all nodes at the place of the reference node. Collective.
@@ -105,7 +114,8 @@ void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, con
 /// A mean of nodes cannot carry what else its reference node has: it becomes a notice where that is nothing.
 /// Collective.
 void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int set, InpReading& reading) {
-  if (with_positions(comm, {reference}, reading).empty())
+  const std::vector<Labelled> base = with_positions(comm, {reference}, reading);
+  if (base.empty())
     return reading.faults.add(link.where,
                               "this line names node " + std::to_string(reference) + ", which is not defined");
   int used = 0;
@@ -113,14 +123,20 @@ void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int
     used += std::count(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), reference) > 0;
   for (const auto& mention : reading.mesh.mentions) used += mention.label == reference;
   MPI_Allreduce(MPI_IN_PLACE, &used, 1, MPI_INT, MPI_SUM, comm);
-  const std::string node = "reference node " + std::to_string(reference);
+  const std::string node = "reference node " + std::to_string(reference), place = reading.node_sets.sets[set].name;
+  const std::vector<Labelled> nodes = with_positions(comm, reading.mesh.places[set].labels, reading);
+  const double apart = distance(base.front(), mean_of(nodes));
   if (used > 0)
     return reading.faults.add(link.where,
                               "*COUPLING with *DISTRIBUTING: " + node +
                                   " has an element, a mass or a link, which a mean of nodes does not carry; "
                                   "expected *KINEMATIC");
-  reading.notices.push_back(reading.faults.text_of(link.where) + ": *COUPLING with *DISTRIBUTING is ignored: " + node +
-                            " has no element; its motion is the mean of the place " + reading.node_sets.sets[set].name);
+  reading.notices.push_back(
+      reading.faults.text_of(link.where) + ": *COUPLING with *DISTRIBUTING is ignored: " + node + " has no element; " +
+      (apart > near_enough * size_of(nodes)
+           ? "it is " + fmt::format("{:.3g}", apart) + " away from the mean of the nodes of the place " + place +
+                 ": a force there is one on this place, with its moment about the mean"
+           : "its motion is the mean of the place " + place));
 }
 
 /// Collective.

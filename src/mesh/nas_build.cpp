@@ -93,6 +93,26 @@ std::vector<long long> NasBuild::used_grids() const {
   return used;
 }
 
+/// A place is where the mean of its grids is: a force at another point has a moment about it.
+void NasBuild::refuse_distant(const NasMean& mean) {
+  const NasGrid* reference = frames_.grid(mean.reference);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points;
+  for (const long long node : mean.nodes)
+    if (const NasGrid* grid = frames_.grid(node)) points.push_back(frames_.position_of(*grid));
+  if (!reference || points.size() != mean.nodes.size()) return;  // faults elsewhere
+  for (const Eigen::Vector3d& x : points) centre += x / static_cast<double>(points.size());
+  double size = 0;
+  for (const Eigen::Vector3d& x : points) size = std::max(size, (x - centre).norm());
+  const double apart = (frames_.position_of(*reference) - centre).norm();
+  constexpr double near = 1e-6;  // of the size of the place, and of coordinates, which are rounded
+  if (apart <= near * (size + centre.norm())) return;
+  faults_.add(mean.where, fmt::format("RBE3 {}: reference grid {} is {:.3g} away from the mean of its grids, ({:.6g}, "
+                                      "{:.6g}, {:.6g}); expected a grid there, where the place of the grids is; to "
+                                      "leave the card out: file: {{ignore: [RBE3]}}",
+                                      mean.id, mean.reference, apart, centre.x(), centre.y(), centre.z()));
+}
+
 /// A mean of grids carries nothing: where its reference grid has no more it is a place of the scene.
 void NasBuild::add_means() {
   if (model_.means.empty()) return;
@@ -109,6 +129,7 @@ void NasBuild::add_means() {
                       name, mean.reference, mean.id));
       continue;
     }
+    refuse_distant(mean);
     names.push_back("RBE3_" + std::to_string(mean.id));
     FilePlace& place = mean_places_.emplace_back(FilePlace{names.back(), mean.where, {}});
     if (rank_ == 0) place.labels = mean.nodes;
@@ -116,7 +137,8 @@ void NasBuild::add_means() {
   if (names.empty()) return;
   notices.push_back(faults_.text_of(model_.means.front().where) + ": " +
                     counted(static_cast<long long>(names.size()), "RBE3") +
-                    " without element at the reference grid: a place each of the grids whose mean it is (" +
+                    " without element at the reference grid: a place each of the grids whose mean it is, by lengths of "
+                    "edges or areas of shells between them (" +
                     names.front() + (names.size() > 1 ? ", ...)" : ")"));
 }
 

@@ -40,6 +40,7 @@ class NasBuild {
   void add_shells();
   void add_beams();
   void add_extra_grids();
+  void refuse_distant(const NasMean& mean);
   void add_means();
   /// Labels of the grids that elements, springs, masses and links use, ascending.
   std::vector<long long> used_grids() const;

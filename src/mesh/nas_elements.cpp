@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -183,19 +185,45 @@ void read_rbe2(NasReader& r) {
   if (r.card.good()) r.model.links.push_back(link);
 }
 
+namespace {
+
+/// What a place cannot have instead of the mean of its grids.
+void refuse_mean(NasReader& r, std::size_t field, const std::string& expected) {
+  r.card.refuse(field, "expects " + expected + ", found " + in_quotes(r.card.card.text(field)) +
+                           ": a place is the mean of its grids; to leave the card out: file: {ignore: [RBE3]}");
+}
+
+/// Components that take part in a mean: all translations, perhaps with all rotations, which are left out.
+void check_components(NasReader& r, std::size_t field) {
+  const std::string found = components(r.card.card.text(field));
+  if (found == "123456")
+    r.count_ignored("RBE3 456 of the grids");
+  else if (found != "123")
+    refuse_mean(r, field, "the components 123 of all grids");
+}
+
+}  // namespace
+
 // Weights (real numbers), each with the directions and the grids that follow it.
 void read_rbe3(NasReader& r) {
   const auto& card = r.card.card;
   NasMean mean{r.card.integer(0, "the element's number"), r.card.integer(2, "the reference grid"), {}, r.where()};
   bool directions = false;  // the next number
+  std::optional<double> weight;
   for (std::size_t i = 4; i < card.fields.size(); ++i) {
     if (card.blank(i)) continue;
     const std::string word = upper(card.text(i));
     if (word == "UM" || word == "ALPHA") break;
     if (card.text(i).find('.') != std::string_view::npos) {
       directions = true;
+      const double found = r.card.real(i, "a weight");
+      if (r.card.good() && !(found > 0)) refuse_mean(r, i, "a weight greater than 0");
+      if (r.card.good() && found != weight.value_or(found))
+        refuse_mean(r, i, fmt::format("equal weights ({:g} before)", *weight));
+      weight = found;
     } else if (directions) {
       directions = false;
+      check_components(r, i);
     } else {
       mean.nodes.push_back(r.card.integer(i, "a weight with its directions, or a grid"));
     }

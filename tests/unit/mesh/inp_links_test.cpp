@@ -125,7 +125,12 @@ TEST_CASE("*DISTRIBUTING is the mean of a place where its reference node carries
   CHECK(file.mesh.node_count == 6);  // without 9
   CHECK_THAT(file.notices.at(0),
              Contains("links.inp:22: *COUPLING with *DISTRIBUTING is ignored: reference node 9 has no "
-                      "element; its motion is the mean of the place edge"));
+                      "element; it is 5.41 away from the mean of the nodes of the place edge: a force there is one on "
+                      "this place, with its moment about the mean"));
+  const std::string amid =
+      "*NODE\n8, 2, 0.5\n*SURFACE, NAME=edge\n2, S4\n*COUPLING, REF NODE=8, SURFACE=edge\n*DISTRIBUTING\n";
+  CHECK_THAT(read(amid).notices.at(0),
+             Contains("reference node 8 has no element; its motion is the mean of the place edge"));
   CHECK_THAT(said(coupling + "*ELEMENT, TYPE=MASS, ELSET=P\n7, 9\n*MASS, ELSET=P\n1.\n"),
              Contains("links.inp:22: *COUPLING with *DISTRIBUTING: reference node 9 has an element, a mass or a link"));
   CHECK_THAT(said("*SURFACE, NAME=edge\n2, S4\n*COUPLING, REF NODE=99, SURFACE=edge\n*DISTRIBUTING\n"),

@@ -122,10 +122,11 @@ TEST_CASE("links leave rotations of shells and beams free, in displacement axes"
 }
 
 TEST_CASE("an RBE3 whose reference grid carries nothing is a place") {
-  const auto file = read("mean.bdf", square + "GRID,5,,.5,.5,1.\nRBE3,70,,5,123456,1.,123,1,2,\n,3,2.,123456,4\n");
+  const auto file = read("mean.bdf", square + "GRID,5,,.5,.5,0.\nRBE3,70,,5,123456,1.,123,1,2,\n,3,1.,123456,4\n");
   CHECK(testing::labels_at(file.mesh, "RBE3_70") == std::vector<long long>{1, 2, 3, 4});
   CHECK(file.mesh.node_count == 4);
-  CHECK_THAT(all_of(file.notices), Contains("1 RBE3 without element at the reference grid"));
+  CHECK_THAT(all_of(file.notices),
+             Contains("1 RBE3 without element at the reference grid") && Contains("RBE3 456 of the grids"));
 }
 
 TEST_CASE("masses by components, or by their matrix, are those of rigid bodies") {
