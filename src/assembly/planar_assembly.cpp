@@ -50,6 +50,7 @@ PlanarAssembly::PlanarAssembly(const Plan& plan, Formulation formulation, const 
       formulation_(formulation),
       reduced_(reduced),
       owner_(last_rank(comm_of(plan, formulation))),
+      sees_(owner_ || has_spread_state_loads(plan.scene)),
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
       switches_(switches_of(plan.scene)) {}
@@ -73,8 +74,8 @@ void PlanarAssembly::add_coordinates() {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
       continue;
     }
-    slot.nodes =
-        std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited_nodes(plan_, index));
+    slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh,
+                                                              visited_nodes(plan_, index), 3, sees_);
     if (formulation_ == Formulation::cfr)
       for (PetscInt node = 0; node < body.structure.mesh.owned_nodes; ++node)
         coordinates_.add_angle(slot.nodes->first() + 3 * static_cast<int>(node) + 2, false);
@@ -208,7 +209,7 @@ Marker PlanarAssembly::marker(const Anchor& place) {
     at.psi = map.psi;
     return at;
   }
-  if (!owner_) return Marker::ground(Eigen::Vector2d::Zero());  // its term lives on the last rank
+  if (!sees_) return Marker::ground(Eigen::Vector2d::Zero());  // its term lives on the last rank
   const bool corotational = formulation_ == Formulation::cfr;
   Marker at = reference::node_marker(corotational ? fem::Conditions{} : body.frame.conditions, *slot.nodes, slot.frame,
                                      place.node, place.x);

@@ -9,6 +9,7 @@
 #include "floe/reference/mass_damping.h"
 #include "full_order_modes.h"
 #include "sections.h"
+#include "state_loads.h"
 #include "whole_modes.h"
 
 namespace floe::assembly {
@@ -77,7 +78,7 @@ class PlanarAssembly {
                                                             const Eigen::VectorXd& q) const;
   void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
                  std::vector<ModelStop>& stops);
-  void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
+  void add_joint(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
   Eigen::Vector2d in_mesh_axes(const Anchor& place) const;  // undeformed
   void add_probes(Model& model, const Eigen::VectorXd& q);
   /// That which a deflection is measured from where its place has none of the whole body; none: it has.
@@ -93,6 +94,7 @@ class PlanarAssembly {
   Formulation formulation_;
   const std::vector<ReducedBody>& reduced_;
   bool owner_;  // this rank has the shared terms
+  bool sees_;   // it sees what sensors look at
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
@@ -105,7 +107,8 @@ class PlanarAssembly {
   std::vector<std::vector<const dynamics::Term*>> body_terms_;    // of each body, among terms_
   Connections connections_;                                       // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
-  std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
+  std::map<std::size_t, StateFormulas> state_formulas_;  // of loads that depend on sensors, but for those of joints
+  std::vector<int> undetermined_;                        // joints whose multipliers are not determined
   std::map<std::string, JointSwitches> switches_;
 };
 

@@ -15,7 +15,11 @@ using dynamics::Marker;
 
 void PlanarAssembly::add_joints(Model& model, const Eigen::VectorXd& q) {
   // Finding them is collective, what follows is rank-local.
-  for (const auto& joint : plan_.joints) joint_places_.push_back({marker(joint[0]), marker(joint[1])});
+  for (const auto& joint : plan_.joints) {
+    auto& places = joint_places_.emplace_back(std::array{marker(joint[0]), marker(joint[1])});
+    for (int i = 0; i < 2 && sees_; ++i)  // a ground without a point follows the other place
+      if (joint[i].body < 0 && std::isnan(places[i].x.x())) places[i].x = pose_at(places[1 - i], q).head<2>();
+  }
   const auto add = [&] {
     for (std::size_t j = 0; j < joint_places_.size(); ++j) {
       if (owner_) add_joint(j, joint_places_[j], q);
@@ -33,10 +37,8 @@ void PlanarAssembly::connect(std::size_t j, std::unique_ptr<dynamics::Connection
   terms_.push_back(std::move(term));
 }
 
-void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eigen::VectorXd& q) {
+void PlanarAssembly::add_joint(std::size_t j, const std::array<Marker, 2>& places, const Eigen::VectorXd& q) {
   const Joint& joint = plan_.scene.joints[j];
-  for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
-    if (plan_.joints[j][i].body < 0 && std::isnan(places[i].x.x())) places[i].x = pose_at(places[1 - i], q).head<2>();
   const Eigen::Vector3d y[2] = {pose_at(places[0], q), pose_at(places[1], q)};
   const Eigen::Vector2d apart = (y[1] - y[0]).head<2>();
   const double offset = y[1][2] - y[0][2];

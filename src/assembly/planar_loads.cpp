@@ -6,13 +6,11 @@ using dynamics::Marker;
 
 void PlanarAssembly::add_load(std::size_t l, const BodyPart* part) {
   const Load& load = plan_.scene.loads[l];
-  if (!load.joint.empty() || load.has_sensors()) return;  // add_state_loads
-  const bool moment = load.kind == Load::Kind::moment;
-  const auto value = [load, moment](double t) {
-    return moment ? Eigen::Vector3d(0, 0, load.moment[2](t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
-  };
-  for (auto& term : load_terms(l, value, part)) {
-    if (load.kind != Load::Kind::distributed) load_terms_.emplace(l, term.get());
+  const auto formulas = state_formulas_.find(l);
+  if (!load.joint.empty() || (load.has_sensors() && formulas == state_formulas_.end())) return;  // add_state_loads
+  const auto of_value = [&](const std::function<Eigen::Vector3d(double)>& value) { return load_terms(l, value, part); };
+  for (auto& term : terms_of_load(load, load.has_sensors() ? formulas->second : StateFormulas{}, of_value)) {
+    if (!load.spread()) load_terms_.emplace(l, term.get());
     terms_.push_back(std::move(term));
   }
 }
@@ -42,15 +40,16 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
   }
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   const auto body_axes = body_axes_.find(place.body);
+  const bool moment = load.kind == Load::Kind::moment;
   const bool other = axes == Force::Axes::body && body_axes != body_axes_.end();
   for (Marker& at : markers) {
     // Axes of body and place are those of the mesh where they are not rotated.
     const double tilt = axes == Force::Axes::world || other ? 0 : -plan_.bodies[place.body].frame_angle;
     const Eigen::Matrix2d A = rotation_matrix(tilt);
-    const auto force = [value, A](double t) {
-      Eigen::Vector3d f = value(t);
-      f.head<2>() = (A * f.head<2>()).eval();
-      return f;
+    const auto force = [value, A, moment](double t) {
+      const Eigen::Vector3d f = value(t);
+      if (moment) return Eigen::Vector3d(0, 0, f[2]);
+      return Eigen::Vector3d(A(0, 0) * f[0] + A(0, 1) * f[1], A(1, 0) * f[0] + A(1, 1) * f[1], 0);
     };
     terms.push_back(other ? std::make_unique<Force>(std::move(at), force, body_axes->second.f)
                           : std::make_unique<Force>(std::move(at), force, axes));

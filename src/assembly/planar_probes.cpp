@@ -85,7 +85,7 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
       probe.relative_to->framed = true;
       probe.undeformed = in_mesh_axes(place);
     }
-    if (owner_) {
+    if (sees_) {
       probe.start = pose_at(probe.marker, q);
       if (probe.relative_to) probe.start_relative = pose_at(*probe.relative_to, q);
     }

@@ -49,6 +49,7 @@ SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, cons
       formulation_(formulation),
       reduced_(reduced),
       owner_(last_rank(comm_of(plan, formulation))),
+      sees_(owner_ || has_spread_state_loads(plan.scene)),
       apart_(apart),
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
@@ -174,7 +175,8 @@ void SpatialAssembly::add_coordinates() {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
       continue;
     }
-    slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6);
+    slot.nodes =
+        std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6, sees_);
     if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(6, true);
     slot.damping = full_order_damping(plan_, index, constrained(index), coordinates_);

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 
 #include "connections.h"
 #include "damping_axes.h"
@@ -12,6 +13,7 @@
 #include "floe/reference/spatial_full_order.h"
 #include "full_order_modes.h"
 #include "sections.h"
+#include "state_loads.h"
 #include "whole_modes.h"
 
 namespace floe::assembly {
@@ -71,7 +73,9 @@ class SpatialAssembly {
   void find_constrained_nodes();
   std::vector<PlacedJoint> place_constrained_nodes(int joint);
   void add_corotated(int body);
-  void add_corotated_pressure(const Load& load, int body, const fem::Mesh::Cell& cell);
+  std::vector<std::unique_ptr<dynamics::Term>> corotated_pressure(const Load& load, int body,
+                                                                  const std::function<double(double)>& value,
+                                                                  const fem::Mesh::Cell& cell) const;
 
   void add_frame(int body);
   void add_coordinates();
@@ -98,16 +102,21 @@ class SpatialAssembly {
   /// Of the same nodes with the same weights; null: none.
   const MeanAxes* find_mean(const Anchor& place) const;
   void add_gravity(int body, const BodyPart* part = nullptr);
-  void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
-                   bool of_body, bool conservative, const BodyPart* part);
+  std::vector<std::unique_ptr<dynamics::Term>> density_terms(int body, reference::Density density,
+                                                             const std::function<Eigen::Vector3d(double)>& force,
+                                                             bool of_body, bool conservative, const BodyPart* part);
   void add_load(std::size_t load, const BodyPart* part = nullptr);
-  void add_pressure(const Load& load, int body, const BodyPart* part);
+  std::vector<std::unique_ptr<dynamics::Term>> pressure_terms(const Load& load, int body,
+                                                              const std::function<double(double)>& value,
+                                                              const BodyPart* part);
   std::vector<std::shared_ptr<const dynamics::Term>> terms_of(int body, const BodyPart& part);
   std::vector<ModelSection> sections(std::size_t probe, Model& model);
   std::shared_ptr<const ShellPoint> shell_point(std::size_t probe) const;
-  /// The terms of a force or moment at a place, of which `value` gives the components. Collective.
+  /// The terms of a load that is not on a joint, of which `value` gives the components, a pressure as the first.
+  /// Collective.
   std::vector<std::unique_ptr<dynamics::Term>> load_terms(std::size_t load,
-                                                          const std::function<Eigen::Vector3d(double)>& value);
+                                                          const std::function<Eigen::Vector3d(double)>& value,
+                                                          const BodyPart* part);
   std::vector<std::unique_ptr<dynamics::Term>> load_terms(const Load& load, const LoadPart& part,
                                                           const std::function<Eigen::Vector3d(double)>& value);
   /// Loads on joints, those that depend on sensors, and probes that are formulas. After joints and probes.
@@ -150,8 +159,9 @@ class SpatialAssembly {
 
   const Plan& plan_;
   Formulation formulation_;
-  const std::vector<ReducedBody>& reduced_;
-  bool owner_;  // this rank has the shared terms
+  std::span<const ReducedBody> reduced_;
+  bool owner_;                            // this rank has the shared terms
+  bool sees_;                             // it sees what sensors look at
   bool apart_;
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
@@ -170,7 +180,8 @@ class SpatialAssembly {
   std::vector<std::vector<const dynamics::Term*>> body_terms_;               // of each body, among terms_
   Connections connections_;                                                  // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;             // of those at places, among terms_
-  std::vector<int> undetermined_;  // joints whose multipliers are not determined
+  std::map<std::size_t, StateFormulas> state_formulas_;  // of loads that depend on sensors, but for those of joints
+  std::vector<int> undetermined_;                        // joints whose multipliers are not determined
   std::map<std::string, JointSwitches> switches_;
 };
 

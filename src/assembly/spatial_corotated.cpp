@@ -146,7 +146,8 @@ void SpatialAssembly::add_corotated(int b) {
   slots_[b].corotated = std::make_unique<reference::CorotationalBody>(
       coordinates_, body.structure, visited(b), clamped_edges(b),
       reference::CorotationalStart{body.place, body.attitude, body.rate, body.spin, body.deformation,
-                                   body.deformation_rate});
+                                   body.deformation_rate},
+      sees_);
 }
 
 std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place) const {
@@ -173,25 +174,30 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
   return parts;
 }
 
-void SpatialAssembly::add_corotated_pressure(const Load& load, int b, const fem::Mesh::Cell& cell) {
+std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::corotated_pressure(
+    const Load& load, int b, const std::function<double(double)>& value, const fem::Mesh::Cell& cell) const {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
   const PlannedBody& body = plan_.bodies[b];
   const std::vector<SpatialMarker> places = slots_[b].corotated->places(cell);
   const auto X = [&](int corner) { return body.structure.mesh.positions[cell.place[corner]]; };
   const auto add = [&](const std::array<int, 3>& at, double share) {
     const Vector3d area = 0.5 * (body.attitude * (X(at[1]) - X(at[0])).cross(X(at[2]) - X(at[0])));
-    terms_.push_back(std::make_unique<reference::FacetPressure>(
-        std::vector<SpatialMarker>{places[at[0]], places[at[1]], places[at[2]]},
-        [p = load.pressure](double t) { return p(t); }, share, load.follower ? nullptr : &area));
+    terms.push_back(std::make_unique<reference::FacetPressure>(
+        std::vector<SpatialMarker>{places[at[0]], places[at[1]], places[at[2]]}, value, share,
+        load.follower ? nullptr : &area));
   };
-  if (cell.kind == fem::CellKind::triangle) return add({0, 1, 2}, 1);
-  if (mesh::is_quadratic(cell.kind)) {  // facets between the nodes
+  if (cell.kind == fem::CellKind::triangle) {
+    add({0, 1, 2}, 1);
+  } else if (mesh::is_quadratic(cell.kind)) {  // facets between the nodes
     const int n = static_cast<int>(cell.corners().size());
     for (int i = 0; i < n; ++i) add({i, n + i, n + (i + n - 1) % n}, 1);
-    if (n == 3) return add({3, 4, 5}, 1);
-    for (const auto& sides : fem::quadrilateral_triangles) add({n + sides[0], n + sides[1], n + sides[2]}, 0.5);
-    return;
+    if (n == 3) add({3, 4, 5}, 1);
+    if (n == 4)
+      for (const auto& sides : fem::quadrilateral_triangles) add({n + sides[0], n + sides[1], n + sides[2]}, 0.5);
+  } else {
+    for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
   }
-  for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
+  return terms;
 }
 
 }  // namespace floe::assembly

@@ -87,7 +87,7 @@ SpatialAssembly::PlacedJoint SpatialAssembly::place(int j, const std::array<Anch
   const Joint& joint = plan_.scene.joints[j];
   const Eigen::Matrix3d& W = plan_.joint_axes[j];
   PlacedJoint placed{{marker(anchors[0]), marker(anchors[1])}, {}};
-  if (!owner_) return placed;
+  if (!sees_) return placed;
   for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
     if (anchors[i].ground() && std::isnan(placed.places[i].x0.x()))
       placed.places[i].x0 = start_of(placed.places[1 - i]).p;

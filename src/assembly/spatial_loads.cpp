@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/spatial_force.h"
@@ -19,7 +21,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   const PlannedBody& body = plan_.bodies[place.body];
   const Slot& slot = slots_[place.body];
   SpatialMarker at;
-  if (slot.corotated && !owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());
+  if (slot.corotated && !sees_) return SpatialMarker::ground(Eigen::Vector3d::Zero());
   if (slot.corotated) {
     const MeanAxes* mean = find_mean(place);
     if (!mean) return corotated_parts(place).front().first;
@@ -40,7 +42,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     at.psi = map.psi;
     return at;
   }
-  if (!owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
+  if (!sees_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
   const Eigen::Index n = static_cast<Eigen::Index>(place.averaging_weights.size());
   for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
   at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
@@ -91,8 +93,10 @@ SpatialMarker SpatialAssembly::density_marker(int b, const body::Inertia& inerti
 }
 
 /// A force density, in world axes or in those of the body.
-void SpatialAssembly::add_density(int b, Density density, const std::function<Eigen::Vector3d(double)>& force,
-                                  bool of_body, bool conservative, const BodyPart* part) {
+std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::density_terms(
+    int b, Density density, const std::function<Eigen::Vector3d(double)>& force, bool of_body, bool conservative,
+    const BodyPart* part) {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
   const reference::CellsOfPart cells = part ? &part->cells : nullptr;
   const PlannedBody& body = plan_.bodies[b];
   if (slots_[b].still) {
@@ -102,20 +106,22 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
           std::move(coordinates), inertia.S, [A, force](double t) -> Eigen::VectorXd { return A * force(t); },
           inertia.Q);
       term->conservative = conservative;
-      terms_.push_back(std::move(term));
+      terms.push_back(std::move(term));
     };
     if (compact(b)) {
       const body::FlexibleBody& reduced = reduced_[b].body;
       if (owner_ && reduced.coordinates() > 0)
         add(coordinates_of(b), density == Density::mass ? reduced.inertia : reduced.line);
-      return;
+      return terms;
     }
-    for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
+    for (std::size_t c = 0; c < body.structure.mesh.cells.size(); ++c) {
+      const fem::Mesh::Cell& cell = body.structure.mesh.cells[c];
+      if (!reference::counts(cells, c)) continue;
       const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slots_[b].nodes);
       if (free.coordinates.empty()) continue;
       add(free.coordinates, reference::density_inertia(body.structure, cell, density, free.V));
     }
-    return;
+    return terms;
   }
   std::vector<SpatialMarker> markers;
   if (slots_[b].corotated)
@@ -139,41 +145,43 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
                       : std::make_unique<SpatialForce>(std::move(marker), wrench,
                                                        of_body ? SpatialForce::Axes::body : SpatialForce::Axes::world);
     term->conservative = conservative;
-    terms_.push_back(std::move(term));
+    terms.push_back(std::move(term));
   }
+  return terms;
 }
 
 void SpatialAssembly::add_gravity(int b, const BodyPart* part) {
   const Weight weight(plan_.scene);
   if (weight.none()) return;
   const auto fixed = [g = weight(0)](double) { return g; };
-  if (weight.constant())
-    add_density(b, Density::mass, fixed, false, true, part);
-  else
-    add_density(b, Density::mass, weight, false, false, part);
+  std::ranges::move(weight.constant() ? density_terms(b, Density::mass, fixed, false, true, part)
+                                      : density_terms(b, Density::mass, weight, false, false, part),
+                    std::back_inserter(terms_));
 }
 
 void SpatialAssembly::add_load(std::size_t l, const BodyPart* part) {
   const Load& load = plan_.scene.loads[l];
-  const int body = plan_.loads[l].body;
-  if (!load.joint.empty() || load.has_sensors()) return;  // add_state_loads
-  const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
-    return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
-  };
-  if (load.kind == Load::Kind::pressure) return add_pressure(load, body, part);
-  if (load.kind == Load::Kind::distributed)
-    return add_density(body, Density::line, value, load.axes == Load::Axes::body, false, part);
-  for (auto& term : load_terms(l, value)) {
-    load_terms_.emplace(l, term.get());
+  const auto formulas = state_formulas_.find(l);
+  if (!load.joint.empty() || (load.has_sensors() && formulas == state_formulas_.end())) return;  // add_state_loads
+  const auto of_value = [&](const std::function<Eigen::Vector3d(double)>& value) { return load_terms(l, value, part); };
+  for (auto& term : terms_of_load(load, load.has_sensors() ? formulas->second : StateFormulas{}, of_value)) {
+    if (!load.spread()) load_terms_.emplace(l, term.get());
     terms_.push_back(std::move(term));
   }
 }
 
 std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
-    std::size_t l, const std::function<Eigen::Vector3d(double)>& value) {
+    std::size_t l, const std::function<Eigen::Vector3d(double)>& value, const BodyPart* part) {
+  const Load& load = plan_.scene.loads[l];
+  const int b = plan_.loads[l].body;
+  if (load.kind == Load::Kind::pressure)
+    return pressure_terms(
+        load, b, [value](double t) { return value(t)[0]; }, part);
+  if (load.kind == Load::Kind::distributed)
+    return density_terms(b, Density::line, value, load.axes == Load::Axes::body, false, part);
   std::vector<std::unique_ptr<dynamics::Term>> terms;
-  for (const LoadPart& part : parts_of_load(plan_, l))
-    for (auto& term : load_terms(plan_.scene.loads[l], part, value)) terms.push_back(std::move(term));
+  for (const LoadPart& at : parts_of_load(plan_, l))
+    std::ranges::move(load_terms(load, at, value), std::back_inserter(terms));
   return terms;
 }
 

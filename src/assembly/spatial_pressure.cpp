@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "floe/dynamics/pressure_load.h"
 #include "floe/fem/pressure.h"
@@ -62,18 +63,21 @@ Chosen shells_of(const Load& load, const PlannedBody& body) {
 
 }  // namespace
 
-void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part) {
+std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::pressure_terms(const Load& load, int b,
+                                                                             const std::function<double(double)>& value,
+                                                                             const BodyPart* part) {
   using dynamics::PressureLoad;
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
   const PlannedBody& body = plan_.bodies[b];
   const auto add = [&](std::vector<int> coordinates, body::Pressure unit) {
-    terms_.push_back(std::make_unique<PressureLoad>(
-        std::move(coordinates), slots_[b].attitude, std::move(unit), [p = load.pressure](double t) { return p(t); },
+    terms.push_back(std::make_unique<PressureLoad>(
+        std::move(coordinates), slots_[b].attitude, std::move(unit), value,
         load.follower ? PressureLoad::Kind::follower : PressureLoad::Kind::dead, body.attitude));
   };
   if (body.spec.reduced) {
     body::Pressure unit = pressure_of_file(load, body.spec, reduced_[b].body.coordinates());
     if (owner_) add(coordinates_of(b), std::move(unit));
-    return;
+    return terms;
   }
   const Chosen chosen = [part, all = shells_of(load, body),
                          first = body.structure.mesh.cells.data()](const fem::Mesh::Cell& cell) {
@@ -83,12 +87,12 @@ void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part
     const reduction::Basis none;
     body::Pressure unit = reduction::pressure(body.structure, reduced_[b].basis ? *reduced_[b].basis : none, chosen);
     if (owner_ && !coordinates_of(b).empty()) add(coordinates_of(b), std::move(unit));
-    return;
+    return terms;
   }
   for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
     if (!chosen(cell)) continue;
     if (slots_[b].corotated) {
-      add_corotated_pressure(load, b, cell);
+      std::ranges::move(corotated_pressure(load, b, value, cell), std::back_inserter(terms));
       continue;
     }
     const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slots_[b].nodes);
@@ -97,6 +101,7 @@ void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part
     coordinates.insert(coordinates.end(), free.coordinates.begin(), free.coordinates.end());
     if (!coordinates.empty()) add(coordinates, body::projected(fem::pressure(body.structure, cell), free.V));
   }
+  return terms;
 }
 
 }  // namespace floe::assembly

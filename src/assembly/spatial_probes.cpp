@@ -90,7 +90,7 @@ void SpatialAssembly::add_probes(Model& model) {
     if (b >= 0) probe.mesh = plan_.bodies[b].axes;
     if (!whole.empty()) probe.frame = whole_frame(whole, place);
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
-    if (owner_) {
+    if (sees_) {
       for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
         if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
       probe.start = start_of(probe.marker).p;

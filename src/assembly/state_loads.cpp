@@ -1,5 +1,7 @@
 #include "state_loads.h"
 
+#include <algorithm>
+
 #include "planar_assembly.h"
 #include "spatial_assembly.h"
 #include "stops.h"
@@ -24,6 +26,37 @@ std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoor
         return dynamics::ForceOnCoordinate{-1, 0, 0, 0};
       },
       std::move(active));
+}
+
+bool has_spread_state_loads(const Scene& scene) {
+  return std::any_of(scene.loads.begin(), scene.loads.end(),
+                     [](const Load& load) { return load.spread() && load.has_sensors(); });
+}
+
+namespace {
+
+/// The components of a load that depends on time alone: a pressure as the first.
+std::function<Eigen::Vector3d(double)> value_of(const Load& load) {
+  std::array<math::Formula, 3> all{0., 0., 0.};
+  const auto components = load.formulas();
+  for (std::size_t c = 0; c < components.size(); ++c) all[c] = *components[c];
+  return [all](double t) { return Eigen::Vector3d(all[0](t), all[1](t), all[2](t)); };
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<dynamics::Term>> terms_of_load(const Load& load, const StateFormulas& formulas,
+                                                           const UnitLoads& unit) {
+  if (!load.has_sensors()) return unit(value_of(load));
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  const auto components = load.formulas();
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    if (components[c]->constant() && (*components[c])() == 0) continue;
+    const Eigen::Vector3d one = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(c));
+    for (auto& term : unit([one](double) { return one; }))
+      terms.push_back(std::make_unique<StateForce>(std::move(term), formulas.at(c)));
+  }
+  return terms;
 }
 
 namespace {
@@ -91,11 +124,12 @@ std::vector<std::unique_ptr<dynamics::Sensor>> PlanarAssembly::sensors(const mat
 }
 
 void PlanarAssembly::add_state_loads(Model& model, const Eigen::VectorXd& q) {
+  const auto formula_of = [&](const math::Formula& formula) {
+    return std::make_shared<StateFormula>(formula, sensors(formula, model, q));
+  };
   for (std::size_t p = 0; p < model.probes.size() && owner_; ++p)
-    if (model.probes[p].quantity == Quantity::formula) {
-      const math::Formula& formula = plan_.scene.probes[p].formula;
-      watch(std::make_shared<StateFormula>(formula, sensors(formula, model, q)), model.probes[p], terms_);
-    }
+    if (model.probes[p].quantity == Quantity::formula)
+      watch(formula_of(plan_.scene.probes[p].formula), model.probes[p], terms_);
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
     const Load& load = plan_.scene.loads[l];
     if (!load.joint.empty()) {
@@ -104,19 +138,14 @@ void PlanarAssembly::add_state_loads(Model& model, const Eigen::VectorXd& q) {
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 2));
       connect(j, std::make_unique<StateForce>(
                      unit_load(coordinate_of(j, of, joint_places_[j], q), own_switch(switches_, load.joint)),
-                     StateFormula(load.on_joint, sensors(load.on_joint, model, q))));
+                     formula_of(load.on_joint)));
       continue;
     }
     if (!load.has_sensors()) continue;
-    const auto& components = load.kind == Load::Kind::moment ? load.moment : load.force;
-    for (int c = 0; c < 3; ++c) {
-      if (components[c].constant() && components[c]() == 0) continue;
-      for (auto& unit : load_terms(l, [c](double) -> Eigen::Vector3d { return Eigen::Vector3d::Unit(c); }))
-        load_terms_.emplace(l, terms_
-                                   .emplace_back(std::make_unique<StateForce>(
-                                       std::move(unit), StateFormula(components[c], sensors(components[c], model, q))))
-                                   .get());
-    }
+    StateFormulas& formulas = state_formulas_[l];
+    for (const math::Formula* formula : load.formulas())
+      if (sees_) formulas.push_back(formula_of(*formula));
+    add_load(l);
   }
   measure_again(connections_, plan_.scene, model);
 }
@@ -137,11 +166,12 @@ std::vector<std::unique_ptr<dynamics::Sensor>> SpatialAssembly::sensors(const ma
 }
 
 void SpatialAssembly::add_state_loads(Model& model) {
+  const auto formula_of = [&](const math::Formula& formula) {
+    return std::make_shared<StateFormula>(formula, sensors(formula, model));
+  };
   for (std::size_t p = 0; p < model.probes.size() && owner_; ++p)
-    if (model.probes[p].quantity == Quantity::formula) {
-      const math::Formula& formula = plan_.scene.probes[p].formula;
-      watch(std::make_shared<StateFormula>(formula, sensors(formula, model)), model.probes[p], terms_);
-    }
+    if (model.probes[p].quantity == Quantity::formula)
+      watch(formula_of(plan_.scene.probes[p].formula), model.probes[p], terms_);
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
     const Load& load = plan_.scene.loads[l];
     if (!load.joint.empty()) {
@@ -150,19 +180,14 @@ void SpatialAssembly::add_state_loads(Model& model) {
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 3));
       connect(j, std::make_unique<StateForce>(
                      unit_load(coordinate_of(j, of, placed_[j]), own_switch(switches_, load.joint)),
-                     StateFormula(load.on_joint, sensors(load.on_joint, model))));
+                     formula_of(load.on_joint)));
       continue;
     }
     if (!load.has_sensors()) continue;
-    const auto& components = load.kind == Load::Kind::moment ? load.moment : load.force;
-    for (int c = 0; c < 3; ++c) {
-      if (components[c].constant() && components[c]() == 0) continue;
-      for (auto& unit : load_terms(l, [c](double) -> Eigen::Vector3d { return Eigen::Vector3d::Unit(c); }))
-        load_terms_.emplace(l, terms_
-                                   .emplace_back(std::make_unique<StateForce>(
-                                       std::move(unit), StateFormula(components[c], sensors(components[c], model))))
-                                   .get());
-    }
+    StateFormulas& formulas = state_formulas_[l];
+    for (const math::Formula* formula : load.formulas())
+      if (sees_) formulas.push_back(formula_of(*formula));
+    add_load(l);
   }
   measure_again(connections_, plan_.scene, model);
 }

@@ -11,14 +11,14 @@ Motion StateForce::Part::of(const Motion& motion) {
   return {motion.t, q, v, a, motion.level};
 }
 
-StateForce::StateForce(std::unique_ptr<Term> unit, StateFormula formula)
+StateForce::StateForce(std::unique_ptr<Term> unit, std::shared_ptr<StateFormula> formula)
     : unit_(std::move(unit)), formula_(std::move(formula)) {
   of_unit_.where = place_all(unit_->coordinates(), coordinates_);
-  of_formula_.where = place_all(formula_.coordinates(), coordinates_);
+  of_formula_.where = place_all(formula_->coordinates(), coordinates_);
 }
 
 void StateForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  const double size = formula_.value(of_formula_.of(motion));
+  const double size = formula_->value(of_formula_.of(motion));
   const Motion part = of_unit_.of(motion);
   rows_.setZero(part.q.size());
   unit_->residual(part, rows_);
@@ -26,7 +26,7 @@ void StateForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
 }
 
 void StateForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  const double size = formula_.gradient(of_formula_.of(motion), by_q_, by_v_);
+  const double size = formula_->gradient(of_formula_.of(motion), by_q_, by_v_);
   const Motion part = of_unit_.of(motion);
   const Index n = part.q.size();
   block_.setZero(n, n), rows_.setZero(n);
@@ -43,19 +43,19 @@ void StateForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd&
 Wrench StateForce::on_second(const Motion& motion) const {
   const auto* connection = dynamic_cast<const Connection*>(unit_.get());
   if (!connection) return Wrench::Zero();
-  return formula_.value(of_formula_.of(motion)) * connection->on_second(of_unit_.of(motion));
+  return formula_->value(of_formula_.of(motion)) * connection->on_second(of_unit_.of(motion));
 }
 
 void StateForce::begin_step(const Motion& motion) {
   unit_->begin_step(of_unit_.of(motion));
-  formula_.begin_step(of_formula_.of(motion));
+  formula_->begin_step(of_formula_.of(motion));
 }
 
 void StateForce::save(std::vector<double>& carried) const {
-  formula_.save(carried);
+  formula_->save(carried);
   unit_->save(carried);
 }
 
-void StateForce::load(std::span<const double> carried) { unit_->load(formula_.load(carried)); }
+void StateForce::load(std::span<const double> carried) { unit_->load(formula_->load(carried)); }
 
 }  // namespace floe::dynamics

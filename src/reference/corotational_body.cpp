@@ -68,21 +68,21 @@ bool follows(const fem::Mesh& mesh, int local) {
 
 CorotationalBody::CorotationalBody(dynamics::Coordinates& coordinates, const fem::Structure& structure,
                                    std::vector<PetscInt> visited, const std::vector<std::vector<PetscInt>>& pieces,
-                                   const CorotationalStart& at)
+                                   const CorotationalStart& at, bool everywhere)
     : structure_(structure), owner_(is_last(structure.mesh.comm)) {
   const fem::Mesh& mesh = structure.mesh;
   find_links(pieces);
   int rows = 0;
   for (const Link& link : links_)
     visited.insert(visited.end(), {link.node, link.independent_node}), rows += link.rows();
-  nodes_ = std::make_unique<NodeCoordinates>(coordinates, mesh, visited, 6);
+  nodes_ = std::make_unique<NodeCoordinates>(coordinates, mesh, visited, 6, everywhere);
   link_multipliers_ = coordinates.add_shared(rows, true);
   std::set<PetscInt> moving;
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
     if (!follows(mesh, static_cast<int>(i))) moving.insert(mesh.first_node + i);
   for (const fem::Mesh::Cell& cell : mesh.cells)
     for (int node : cell.nodes()) moving.insert(mesh.global_node(node));
-  if (owner_) moving.insert(visited.begin(), visited.end());
+  if (owner_ || everywhere) moving.insert(visited.begin(), visited.end());
   for (PetscInt node : moving) attitude_[node] = std::make_shared<dynamics::Attitude>();
   start(at);
 }

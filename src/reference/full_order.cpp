@@ -36,13 +36,13 @@ std::vector<int> with_frame(int frame, const std::vector<int>& cell, const NodeC
 }  // namespace
 
 NodeCoordinates::NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh,
-                                 const std::vector<PetscInt>& visited, int dofs_per_node)
+                                 const std::vector<PetscInt>& visited, int dofs_per_node, bool everywhere)
     : dofs_(dofs_per_node) {
   int rank = 0, size = 1;
   MPI_Comm_rank(mesh.comm, &rank);
   MPI_Comm_size(mesh.comm, &size);
   std::vector<PetscInt> nodes = mesh.foreign;
-  if (rank == size - 1)
+  if (everywhere || rank == size - 1)
     for (PetscInt node : visited) {
       const bool own = node >= mesh.first_node && node < mesh.first_node + mesh.owned_nodes;
       if (!own && std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);

@@ -250,6 +250,8 @@ class GroupCopy {
       } else if (of == "force" || of == "moment" || of == "formula") {
         const YAML::Node formulas = sensors_.renamed(value, name_ + "_", motion_);
         copy.force_insert(key, axes.empty() || axes == "world" ? motion_.moved(formulas, false) : formulas);
+      } else if (of == "pressure") {
+        copy.force_insert(key, sensors_.renamed(value, name_ + "_", motion_));
       } else {
         copy.force_insert(key, value);
       }

@@ -85,6 +85,24 @@ void check_axes(Document& document, const Reading& reading, const Joint& joint) 
   }
 }
 
+/// @returns false  after a fault: it depends on sensors, as only loads may
+bool depends_on_time_alone(Document& document, Reading& reading, const char* key) {
+  const std::string text = reading.text(key);
+  bool senses = false;
+  try {
+    senses = math::Formula::of_sensors(text, document.names).has_sensors();
+  } catch (const math::FormulaError&) {  // reported where it is read
+  }
+  if (senses)
+    document.fault(reading.where(key),
+                   fmt::format("depends on a sensor ({}): a drive prescribes its joint as a constraint, whose reaction "
+                               "would act on what is sensed, too",
+                               in_quotes(text)),
+                   "a formula of t, or a joint that is free, with a load on it that follows the sensor: force or "
+                   "moment \"-k*(JOINT.angle - ...) - d*JOINT.rate\"");
+  return !senses;
+}
+
 /// A formula of the coordinate, or of its rate.
 void read_drive(Document& document, Reading& reading, const char* key, math::Formula& value,
                 std::optional<math::Formula>& speed) {
@@ -93,10 +111,8 @@ void read_drive(Document& document, Reading& reading, const char* key, math::For
         reading.where(reading.given("speed") ? "speed" : key),
         reading.given("speed") ? fmt::format("is given together with {}", key) : "is missing, and so is speed",
         fmt::format("either {} or speed", key));
-  else if (reading.given(key))
-    value = reading.formula(key);
-  else
-    speed = reading.formula("speed");
+  else if (const char* given = reading.given(key) ? key : "speed"; depends_on_time_alone(document, reading, given))
+    (given == key ? value : speed.emplace()) = reading.formula(given);
 }
 
 std::optional<LimitsSpec> read_limits(Document& document, Reading& joint, const char* key) {

@@ -56,9 +56,6 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
     if (load.per == Load::Per::whole)
       document.fault(reading.where("shape"), "is given without per", "per: length or per: area");
   }
-  if (load.kind == Kind::distributed && load.has_sensors())
-    document.fault(reading.where("force"), "depends on a sensor",
-                   "formulas of t: only forces and moments at places and of joints may depend on sensors");
   return load;
 }
 

@@ -125,7 +125,7 @@ const SchemaSection joint_section{
 
 const SchemaSection load_section{
     "load",
-    "A force, moment or pressure, named by its key. Forces and moments at places and of joints may depend on sensors: "
+    "A force, moment or pressure, named by its key. Loads may depend on sensors: "
     "in their formulas JOINT.angle and JOINT.rate (hinges, springs), JOINT.travel and JOINT.speed (slides), "
     "JOINT.length and JOINT.length_rate (springs), and PROBE.COMPONENT, as tip.x, of probes of positions, "
     "displacements, rotations and their rates are numbers.",
@@ -146,8 +146,8 @@ const SchemaSection load_section{
         only({"distributed", "pressure"}, {"body", Type::body, "", required, "the body on which it acts"}),
         only({"pressure"},
              in_space({"part", Type::text, "", "", "part of the mesh on which it acts; absent: all shells"})),
-        only({"pressure"},
-             in_space({"pressure", Type::formula, "N/m2", required, "pressure, positive along the shells' normals"})),
+        only({"pressure"}, in_space({"pressure", Type::formula_of_sensors, "N/m2", required,
+                                     "pressure, positive along the shells' normals"})),
         only({"pressure"}, in_space({"follower", Type::flag, "", "true",
                                      "true: follower pressure, normal to the deformed shells; false: constant "
                                      "direction, that at the start"})),

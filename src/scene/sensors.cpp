@@ -191,7 +191,9 @@ void place_loads(Document& document, Scene& scene) {
     for (const math::Formula* formula : load.formulas())
       for (std::size_t i = 1; i < formula->variables().size(); ++i) {
         Where where = load.where;
-        where.key += load.kind == Load::Kind::moment ? ".moment" : ".force";
+        where.key += load.kind == Load::Kind::moment     ? ".moment"
+                     : load.kind == Load::Kind::pressure ? ".pressure"
+                                                         : ".force";
         check_sensor(document, scene, where, formula->variables()[i]);
       }
     if (load.joint.empty()) continue;

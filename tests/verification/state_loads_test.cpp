@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -292,5 +293,93 @@ probes: {w: {at: rod.end, quantity: angular_velocity}}
     else
       w = history["w.z"].back();
     CHECK(w == Approx(4 - 5 * 0.1).epsilon(1e-6));  // 1.77 rad beyond the start: a stop would have thrown it back
+  }
+}
+
+// q = q0 - c w at the tip of a cantilever: w = w0 / (1 + c w0 / q0), w0 = q0 L^4 / (8 EI), in the plane and in space;
+// the moment at the root is that of the reaction.
+TEST_CASE("state loads: a distributed load that follows the tip of a cantilever") {
+  const std::string plane = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 20}}
+    section: {EA: 1e6, EI: 50, rhoA: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 6, attachment: all}
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+loads: {q: {type: distributed, body: beam, force: [0, "4e-3*t - 300*tip.y"]}}
+probes: {tip: {at: beam.end}, m: {joint: root, quantity: moment}, section: {at: beam.start, quantity: section_moment}}
+)yaml",
+                    space = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 20}}
+    section: {shape: rectangle, width: 0.01, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 6e10, nu: 0.3, rho: 1000}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 8, attachment: all}
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+loads: {q: {type: distributed, body: beam, force: [0, 0, "4e-3*t - 300*tip.z"]}}
+probes: {tip: {at: beam.end}, m: {joint: root, quantity: moment}, section: {at: beam.start, quantity: section_moment}}
+)yaml";
+  const double w0 = 4e-3 / (8 * 50), w = w0 / (1 + 300 * w0 / 4e-3), q = 4e-3 - 300 * w;
+  for (const bool spatial : {false, true})
+    for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
+      INFO(spatial << " " << scene::name_of(formulation));
+      const History at = rest(spatial ? space : plane, formulation);
+      const double lumped = formulation == Formulation::cfr ? 5e-3 : 1e-4;  // loads at nodes
+      CHECK(at[spatial ? "tip.z" : "tip.y"][0] == Approx(w).epsilon(lumped));
+      const double m = std::abs(at[spatial ? "m.y" : "m.z"][0]);
+      CHECK(m == Approx(q / 2).epsilon(5e-3));
+      const double section = std::abs(at[spatial ? "section.My" : "section.M"][0]);
+      if (formulation != Formulation::cfr) CHECK(section == Approx(m).epsilon(1e-6));
+    }
+}
+
+// A pressure p0 - c w of a clamped strip: w = w0 / (1 + c w0 / p0), w0 of the pressure p0 alone; follower and dead.
+TEST_CASE("state loads: a pressure that follows the edge of a strip of shells, in every formulation") {
+  const std::string text = R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.25, 0], elements: [8, 2], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 1e9, nu: 0.3, rho: 1000}
+    reduction: {modes: $n, attachment: all}
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {p: {type: pressure, body: strip, pressure: "$p", follower: $follower}}
+motion: {end: 2, step: 1e-2}
+probes: {tip: {at: strip.right}, v: {at: strip.right, quantity: velocity}}
+)yaml";
+  for (const char* follower : {"true", "false"})
+    for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
+      INFO(follower << " " << scene::name_of(formulation));
+      const auto loaded = [&](const char* p) {
+        return rest(fill(text, {{"n", "6"}, {"p", p}, {"follower", follower}}), formulation)["tip.z"][0];
+      };
+      const double w0 = loaded("1e-2*t");
+      CHECK(loaded("1e-2*t - 200*tip.z") == Approx(w0 / (1 + 200 * w0 / 1e-2)).epsilon(1e-6));
+    }
+  // a pressure against the velocity of the edge damps the first mode (it excites the second, whose mean moves against
+  // its edge): the strip passes its equilibrium and comes to rest there
+  std::string one = text;
+  one.replace(one.find("attachment: all"), 15, "attachment: none, derivatives: none");
+  const auto pushed = [&](const char* p) { return fill(one, {{"n", "1"}, {"p", p}, {"follower", "true"}}); };
+  const History at = move(pushed("1e-2 - 30*v.z"), Formulation::vm_md);
+  const double w = rest(pushed("1e-2*t"), Formulation::vm_md)["tip.z"][0];
+  CHECK(at["tip.z"].back() == Approx(w).epsilon(0.02));
+  CHECK(*std::max_element(at["tip.z"].begin(), at["tip.z"].end()) > 1.2 * w);
+}
+
+TEST_CASE("state loads: drives refuse sensors, and say what to use instead") {
+  try {
+    scene::parse_scene(R"yaml(
+bodies: {rod: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}}
+joints: {motor: {type: driven, between: [ground, rod.centre], angle: "2*motor.rate"}}
+)yaml",
+                       "scene");
+    FAIL("no error");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("joints.motor.angle: depends on a sensor"));
+    CHECK_THAT(error.what(), Catch::Contains("a load on it that follows the sensor"));
   }
 }

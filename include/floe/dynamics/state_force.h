@@ -17,8 +17,9 @@ namespace floe::dynamics {
 /// It has no energy: its work counts as that of loads.
 class StateForce final : public Connection {
  public:
-  /// @param unit  the load of size 1, which may depend on the configuration alone
-  StateForce(std::unique_ptr<Term> unit, StateFormula formula);
+  /// @param unit     the load of size 1, which may depend on the configuration alone
+  /// @param formula  which several parts of one load have in common
+  StateForce(std::unique_ptr<Term> unit, std::shared_ptr<StateFormula> formula);
   const std::vector<int>& coordinates() const override { return coordinates_; }
   /// @throws math::FormulaError  its value or one of its derivatives is not finite
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
@@ -37,7 +38,7 @@ class StateForce final : public Connection {
     Motion of(const Motion& motion);
   };
   std::unique_ptr<Term> unit_;
-  StateFormula formula_;
+  std::shared_ptr<StateFormula> formula_;
   std::vector<int> coordinates_;
   mutable Part of_unit_, of_formula_;
   mutable Eigen::VectorXd rows_, by_q_, by_v_;

@@ -37,9 +37,11 @@ class CorotationalBody {
  public:
   /// @param visited  global nodes that the last rank must see (NodeCoordinates)
   /// @param pieces   global nodes that follow none, disjoint; the same on all ranks
+  /// @param everywhere  this rank sees what is visited, too
   /// Collective (in order with other blocks).
   CorotationalBody(dynamics::Coordinates& coordinates, const fem::Structure& structure, std::vector<PetscInt> visited,
-                   const std::vector<std::vector<PetscInt>>& pieces, const CorotationalStart& start);
+                   const std::vector<std::vector<PetscInt>>& pieces, const CorotationalStart& start,
+                   bool everywhere = false);
 
   const NodeCoordinates& nodes() const { return *nodes_; }
   /// Whether this rank sees the frame of the node.

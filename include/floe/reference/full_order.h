@@ -12,12 +12,13 @@ namespace floe::reference {
 /// Where the nodes of a distributed body stand among a system's local coordinates.
 ///
 /// Owned nodes, the mesh's foreign ones, and on the last rank also the nodes that joints, loads and probes act on:
-/// these terms live there, beside the frames and the multipliers.
+/// these terms live there, beside the frames and the multipliers. On every rank where loads on elements depend on them.
 class NodeCoordinates {
  public:
-  /// @param visited  global nodes that the last rank must see. Collective (in order with other blocks).
+  /// @param visited     global nodes that the last rank must see. Collective (in order with other blocks).
+  /// @param everywhere  so must this rank
   NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh, const std::vector<PetscInt>& visited,
-                  int dofs_per_node = 3);
+                  int dofs_per_node = 3, bool everywhere = false);
   /// Local index of the first dof of a node that this rank sees.
   int of_local_node(int local) const { return first_ + dofs_ * local; }
   /// Likewise from the global number; throws std::out_of_range where it is not seen.

@@ -2,8 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/joint_force.h"
 #include "floe/dynamics/joints.h"
+#include "floe/dynamics/pressure_load.h"
 #include "floe/dynamics/spatial_force.h"
 #include "spatial_terms.h"
 
@@ -40,7 +42,7 @@ StateForce on_joint(const Marker& first, const Marker& second, Of on, Of sensed)
   std::vector<std::unique_ptr<Sensor>> sensors;
   sensors.push_back(std::make_unique<CoordinateSensor>(of_pair(first, second, sensed), false));
   sensors.push_back(std::make_unique<CoordinateSensor>(of_pair(second, first, sensed), true));
-  return {std::move(unit), dynamics::StateFormula(law, std::move(sensors))};
+  return {std::move(unit), std::make_shared<dynamics::StateFormula>(law, std::move(sensors))};
 }
 
 /// Also with frames that have rotated from their bases.
@@ -82,7 +84,7 @@ TEST_CASE("forces on places in space that depend on rotations and angular veloci
       check_tangent(StateForce(std::make_unique<dynamics::SpatialForce>(
                                    places.first.coordinates.empty() ? places.second : places.first,
                                    [w](double) { return w; }, axes),
-                               dynamics::StateFormula(law, std::move(sensors))),
+                               std::make_shared<dynamics::StateFormula>(law, std::move(sensors))),
                     random);
     }
 }
@@ -131,4 +133,34 @@ TEST_CASE("friction resists the rate with its level, and has exact tangents") {
   for (const auto& places : testing::spatial_pairs())
     for (const Of of : {Of::slide, Of::rotation})
       check_tangent(JointForce(of_pair(places.first, places.second, of), friction), random);
+}
+
+TEST_CASE("pressures and forces along the elements that depend on the state have exact tangents") {
+  Random random(317);
+  const math::Formula two = math::Formula::of_sensors("0.7*sin(1.3*a.x + t) - 0.4*b.x^2*a.x", {});
+  const auto places = testing::spatial_pairs().front();
+  body::Pressure unit(2);
+  unit.force = random.vector(3), unit.moment = random.vector(3), unit.load = random.vector(2);
+  unit.force_by = random.matrix(3, 2), unit.moment_by = random.matrix(3, 2), unit.load_by = random.matrix(2, 2);
+  unit.spread = random.matrix(3, 3);
+  for (Eigen::Matrix3d& by : unit.spread_by) by = random.matrix(3, 3);
+  const auto sensors = [&] {
+    std::vector<std::unique_ptr<Sensor>> all;
+    all.push_back(std::make_unique<CoordinateSensor>(of_pair(places.first, places.second, Of::slide), false));
+    all.push_back(std::make_unique<CoordinateSensor>(of_pair(places.first, places.second, Of::slide), true));
+    return std::make_shared<dynamics::StateFormula>(two, std::move(all));
+  };
+  const auto one = [](double) { return 1.; };
+  for (const auto kind : {dynamics::PressureLoad::Kind::follower, dynamics::PressureLoad::Kind::dead})
+    check_tangent(StateForce(std::make_unique<dynamics::PressureLoad>(std::vector<int>{90, 91}, nullptr, unit, one,
+                                                                      kind, Eigen::Matrix3d::Identity()),
+                             sensors()),
+                  random);
+  const Eigen::MatrixXd S = random.matrix(3, 2);
+  const std::vector<Eigen::MatrixXd> Q(3, Eigen::MatrixXd::Identity(2, 2));
+  check_tangent(StateForce(std::make_unique<dynamics::DeadForce>(
+                               std::vector<int>{90, 91}, S,
+                               [](double) -> Eigen::VectorXd { return Eigen::Vector3d(1, 2, 3); }, Q),
+                           sensors()),
+                random);
 }
