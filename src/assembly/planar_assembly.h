@@ -80,6 +80,8 @@ class PlanarAssembly {
                  std::vector<ModelStop>& stops);
   void add_joint(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
   Eigen::Vector2d in_mesh_axes(const Anchor& place) const;  // undeformed
+  /// A place with the axes that forces of a joint are given in.
+  dynamics::Marker axes_of_joint(std::size_t joint, const Eigen::VectorXd& q) const;
   void add_probes(Model& model, const Eigen::VectorXd& q);
   /// That which a deflection is measured from where its place has none of the whole body; none: it has.
   std::optional<FrameByPlaces> frame_of_deflection(std::size_t probe);

@@ -58,6 +58,18 @@ std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) 
   return frame;
 }
 
+dynamics::Marker PlanarAssembly::axes_of_joint(std::size_t j, const Eigen::VectorXd& q) const {
+  const Joint& joint = plan_.scene.joints[j];
+  const int side = joint.first.ground() ? 1 : 0;
+  dynamics::Marker at = joint_places_[j][side];
+  if (!sees_) return at;
+  if (joint.kind == Joint::Kind::prismatic)
+    at.angle0 += std::atan2(joint.axis[1], joint.axis[0]) - pose_at(at, q)[2];
+  else
+    at.angle0 -= plan_.bodies[plan_.joints[j][side].body].frame_angle;
+  return at;
+}
+
 void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
@@ -78,6 +90,7 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
     }
     probe.connections = measured(connections_, plan_.scene, spec);
     if (spec.relative_to) probe.relative_to = with_mesh_axes(plan_.probes[p][1]);
+    if (spec.joint_axes) probe.relative_to = axes_of_joint(joint_index(plan_.scene, spec.joint), q);
     if (const auto axes = body_axes_.find(place.body);
         spec.quantity == Probe::Quantity::deflection && axes != body_axes_.end() && !probe.frame) {
       probe.relative_to = dynamics::Marker::ground({0, 0});

@@ -142,6 +142,8 @@ class SpatialAssembly {
   /// And friction.
   void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
   void add_probes(Model& model);
+  /// A place with the axes that forces of a joint are given in. Collective.
+  dynamics::SpatialMarker axes_of_joint(int joint);
   /// That of the whole of a split body, from places of its parts.
   SpatialFrameByPlaces whole_frame(const std::vector<Anchor>& places, const Anchor& probe);
   void set_deformation(int body, Vec shape, Vec into) const;

@@ -39,7 +39,43 @@ MassCentre mass_centre(const Body& part) {
   return centre;
 }
 
+/// Axes of a joint that its force is given in, at the start. @param W  Plan::joint_axes  @param mesh  the axes of the
+/// mesh
+Eigen::Matrix3d axes_along(const Joint& joint, const Eigen::Matrix3d& W, const Eigen::Matrix3d& mesh) {
+  using Kind = Joint::Kind;
+  switch (joint.kind) {
+    case Kind::universal:
+    case Kind::bushing:
+      return W;
+    case Kind::fixed:
+    case Kind::spherical:
+    case Kind::distance:
+    case Kind::support:
+      return mesh;
+    default:
+      break;
+  }
+  if (joint.kind == Kind::spring && !joint.axis_given) return mesh;
+  Eigen::Matrix3d axes;
+  axes.col(2) = W.col(2);
+  const Eigen::Index first = mesh.col(0).cross(W.col(2)).norm() > 1e-6 ? 0 : 1;
+  axes.col(1) = W.col(2).cross(mesh.col(first)).normalized();
+  axes.col(0) = axes.col(1).cross(W.col(2));
+  return axes;
+}
+
 }  // namespace
+
+SpatialMarker SpatialAssembly::axes_of_joint(int j) {
+  const Joint& joint = plan_.scene.joints[j];
+  const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
+  SpatialMarker at = marker(place);
+  if (!sees_) return at;
+  const PlannedBody& body = plan_.bodies[place.body];
+  at.D0 = at.D0 * start_of(at).D.transpose() *
+          axes_along(joint, plan_.joint_axes[j], body.attitude * body.axes.transpose());
+  return at;
+}
 
 SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& places, const Anchor& probe) {
   const auto in_mesh_axes = [&](const Anchor& place) {
@@ -102,6 +138,7 @@ void SpatialAssembly::add_probes(Model& model) {
       probe.relative_to->attitude = f.attitude;
       probe.undeformed = plan_.bodies[b].origin + plan_.bodies[b].axes * place.x;
     }
+    if (spec.joint_axes) probe.relative_to = axes_of_joint(static_cast<int>(joint_index(plan_.scene, spec.joint)));
     if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates
     model.probes.push_back({spec.name,
                             spec.quantity,

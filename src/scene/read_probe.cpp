@@ -77,7 +77,7 @@ bool read_coordinate(Document& document, Reading& reading, const std::string& qu
     document.fault(reading.where("joint"), "is no name that formulas can have",
                    "a joint named by letters, digits and _");
   }
-  for (const char* key : {"unit", "relative_to"})
+  for (const char* key : {"unit", "relative_to", "axes"})
     if (reading.given(key)) document.fault(reading.where(key), "does not apply to a coordinate of a joint", "none");
   return true;
 }
@@ -104,6 +104,17 @@ void check_owner(Document& document, const Reading& reading, const std::string& 
     document.fault(reading.where("relative_to"), "does not apply to energies, drives and powers", "none");
 }
 
+/// In which axes the force or moment of a joint is given.
+void read_axes(Document& document, Reading& reading, Probe& probe) {
+  if (!reading.given("axes")) return;
+  probe.joint_axes = reading.choice<bool>("axes", {{"world", false}, {"ground", false}, {"joint", true}});
+  if (probe.quantity != Probe::Quantity::force && probe.quantity != Probe::Quantity::moment)
+    document.fault(reading.where("axes"), "applies to forces and moments of joints only",
+                   "quantity: force or moment of a joint, or none");
+  else if (probe.relative_to)
+    document.fault(reading.where("axes"), "is given beside relative_to, which gives the axes, too", "one of them");
+}
+
 }  // namespace
 
 Probe read_probe(Document& document, const std::string& name, const Value& value) {
@@ -120,7 +131,7 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
     probe.quantity = Quantity::formula;
     probe.formula = read_formula(document, *reading.value("formula"), reading.key("formula"), {"t"});
     probe.unit = reading.text("unit");
-    for (const char* key : {"quantity", "relative_to"})
+    for (const char* key : {"quantity", "relative_to", "axes"})
       if (reading.given(key))
         document.fault(reading.where(key), "does not apply to a formula", "formula and unit alone");
     return probe;
@@ -135,6 +146,7 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
   if (of == "body") probe.quantity = Quantity::strain_energy;
   if (!quantity.empty()) probe.quantity = quantity_named(quantity);
   check_owner(document, reading, of, probe);
+  read_axes(document, reading, probe);
   if (probe.relative_to && probe.quantity == Quantity::deflection)
     document.fault(reading.where("relative_to"),
                    "does not apply to a deflection, which is measured in the body's frame",

@@ -76,6 +76,7 @@ int RenamedSensors::axis_of(const std::string& name, const GroupMotion& motion) 
   if (found == probes.end() || joints.count(owner(name)) || seen_from_group.count(owner(name))) return -1;
   const YAML::Node& quantity = found->second["quantity"];
   if (quantity && quantity.IsScalar() && own_axes().count(quantity.Scalar())) return -1;
+  if (const YAML::Node& axes = found->second["axes"]; axes && axes.IsScalar() && axes.Scalar() == "joint") return -1;
   const std::string component = name.substr(name.find('.') + 1), axes = motion.dimension == 3 ? "xyz" : "xy";
   const auto axis = component.empty() ? std::string::npos : axes.find(component.back());
   return axis == std::string::npos || component.size() > 2 ? -1 : static_cast<int>(axis);

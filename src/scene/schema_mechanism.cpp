@@ -269,6 +269,12 @@ const SchemaSection probe_section{
         {"relative_to", Type::place, "", "",
          "reference place; components in axes that rotate with its section; absent: world. Of a joint, the axes alone "
          "are those of the place"},
+        choice("axes", "world",
+               "of the force or moment of a joint, instead of relative_to; ground: those of the ground, which does not "
+               "rotate, as world; joint: z along the axis of the joint (in planar scenes x of a prismatic joint), x "
+               "that of the mesh, normal to z; they rotate with the first place, or with the second where the first is "
+               "on the ground",
+               {"world", "ground", "joint"}),
         {"toward", Type::place, "", "",
          "section_force, section_moment: the section just beside the place, on the element that leads towards this "
          "place; absent: the mean of both sides, which differ where a load or a joint acts on the place. Of shells: on "

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "building.h"
+#include "floe/math/rotation.h"
 #include "scene_motion.h"
 
 using namespace floe;
@@ -311,4 +312,136 @@ probes:
     if (history.t[i] > 0.105) CHECK(std::abs(history["m.z"][i]) < 1e-3);
   }
   CHECK(largest > 1);
+}
+
+// Driven by phi = 0.7 + 2 t^4 about its end, a rod of mass m and length 1 needs the force m r (-w^2, w.) along and
+// across itself, r = 1/2, and the moment J w. about its end.
+TEST_CASE("reactions in the axes of a joint: those of a rotating arm, oblique in its mesh, in every formulation",
+          "[verification]") {
+  const Eigen::Matrix3d Q = math::rotation(Eigen::Vector3d(0.4, -0.9, 0.7));
+  const auto in_space = [&](double x, double y, double z) {
+    const Eigen::Vector3d p = Q * Eigen::Vector3d(x, y, z);
+    return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", p.x(), p.y(), p.z());
+  };
+  const std::string plane = R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [0.6, 0.8], elements: 6}}
+    section: {EA: 1e9, EI: 1e6, rhoA: 2}
+    frame: $frame
+    reduction: {modes: 4}
+    initial: {angle: 0.7}
+joints: {motor: {type: driven, between: $between, angle: "2*t^4"}}
+motion: {end: 1, step: 2e-3}
+probes:
+  f: {joint: motor, axes: joint}
+  m: {joint: motor, quantity: moment, axes: joint}
+  w: {joint: motor}
+  g: {joint: motor, axes: ground}
+)yaml",
+                    space = R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0, 0], to: [0.6, 0.8, 0], elements: 6}}
+    section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 0, 1]}
+    material: {E: 1e14, nu: 0.3, rho: 5000}
+    frame: $frame
+    reduction: {modes: 4}
+    initial: {rotation: $r}
+joints: {motor: {type: driven, between: $between, axis: $z, angle: "2*t^4"}}
+motion: {end: 1, step: 2e-3}
+probes:
+  f: {joint: motor, axes: joint}
+  m: {joint: motor, quantity: moment, axes: joint}
+  w: {joint: motor}
+  g: {joint: motor, axes: ground}
+)yaml";
+  for (const bool spatial : {false, true})
+    for (const char* frame : {"{type: clamped, at: start}", "{type: pinned, from: start, to: end}"})
+      for (const char* between : {"[ground, arm.start]", "[arm.start, ground]"})
+        for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
+          INFO(spatial << " " << frame << " " << between << " " << scene::name_of(formulation));
+          const bool turned = between[1] == 'a';  // the force on the ground, and the arm rotates backwards
+          const Eigen::Vector3d r = math::rotation_vector(Eigen::Quaterniond(Q));
+          const History at = move(
+              fill(spatial ? space : plane, {{"frame", frame},
+                                             {"between", between},
+                                             {"r", fmt::format("[{:.17g}, {:.17g}, {:.17g}]", r.x(), r.y(), r.z())},
+                                             {"z", in_space(0, 0, 1)}}),
+              formulation);
+          for (const double t : {0.5, 0.8, 1.}) {
+            const auto i = static_cast<std::size_t>(std::lround(t / 2e-3));
+            const double sign = turned ? -1 : 1, w = 8 * t * t * t, rate = sign * 24 * t * t;
+            const Eigen::Vector2d along(0.6, 0.8), across(-0.8, 0.6);
+            const Eigen::Vector2d f = sign * (-w * w * along + rate * across);
+            const double size = 64 + 24;
+            CHECK(std::abs(at["f.x"][i] - f.x()) < 2e-4 * size);
+            CHECK(std::abs(at["f.y"][i] - f.y()) < 2e-4 * size);
+            CHECK(std::abs(at["m.z"][i] - sign * 2. / 3 * rate) < 4e-4 * 16);
+            if (spatial) CHECK(std::abs(at["f.z"][i]) < 1e-6 * size);
+            CHECK(at["g.x"][i] == at["w.x"][i]);
+            CHECK(at["g.y"][i] == at["w.y"][i]);
+          }
+        }
+}
+
+TEST_CASE("reactions in the axes of a joint: about a free axis there is no moment, along a slide no force",
+          "[verification]") {
+  const History hinge = move(R"yaml(
+gravity: [0, 0, -9.81]
+bodies: {lid: {rigid: {mass: 2, centre: [0.3, 0.1, 0.2], inertia: [1, 2, 3]}, initial: {rotation: [0.3, 0.2, -0.5]}}}
+joints: {hinge: {type: revolute, between: [ground, {body: lid, node: [0, 0, 0]}], axis: [1, 2, -1]}}
+motion: {end: 1, step: 2e-3}
+probes:
+  f: {joint: hinge, axes: joint}
+  m: {joint: hinge, quantity: moment, axes: joint}
+  world: {joint: hinge, quantity: moment}
+)yaml",
+                             Formulation::vm_md);
+  double free = 0, held = 0;
+  for (std::size_t i = 0; i < hinge.t.size(); ++i) {
+    free = std::max(free, std::abs(hinge["m.z"][i]));
+    held = std::max(held, std::hypot(hinge["m.x"][i], hinge["m.y"][i]));
+    const Eigen::Vector3d world(hinge["world.x"][i], hinge["world.y"][i], hinge["world.z"][i]);
+    CHECK(world.norm() == Approx(std::hypot(hinge["m.x"][i], hinge["m.y"][i], hinge["m.z"][i])));
+  }
+  CHECK(held > 1);
+  CHECK(free < 1e-9 * held);
+
+  const History slide = move(R"yaml(
+gravity: [0, -10]
+bodies: {mass: {rigid: {mass: 3, centre: [0, 0], inertia: 1}}}
+joints: {slide: {type: prismatic, between: [mass.centre, ground], axis: [0.6, 0.8]}}
+motion: {end: 0.1, step: 1e-2}
+probes: {f: {joint: slide, axes: joint}}
+)yaml",
+                             Formulation::vm_md);
+  CHECK(std::abs(slide["f.x"].back()) < 1e-9);
+  CHECK(slide["f.y"].back() == Approx(-3 * 10 * 0.6));  // on the ground
+}
+
+// The axes of a place are those of its mesh, whatever the frame: of a rod oblique in its mesh, too.
+TEST_CASE("components relative to a place do not depend on the frame of its body", "[verification]") {
+  const std::string text = R"yaml(
+gravity: [0, -10]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [0.6, 0.8], elements: 4}}
+    section: {EA: 1e5, EI: 1e2, rhoA: 2}
+    frame: $frame
+    reduction: {modes: 4}
+    initial: {angle: 0.3}
+joints: {root: {type: fixed, between: [ground, rod.start]}}
+probes: {f: {joint: root, relative_to: rod.start}, u: {at: rod.end, relative_to: rod.start}}
+)yaml";
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr})
+    for (const char* frame : {"{type: clamped, at: start}", "{type: pinned, from: start, to: end}"}) {
+      INFO(scene::name_of(formulation) << " " << frame);
+      const History at = rest(fill(text, {{"frame", frame}}), formulation);
+      CHECK(at["f.x"][0] == Approx(20 * s).epsilon(2e-2));
+      CHECK(at["f.y"][0] == Approx(20 * c).epsilon(2e-2));
+      CHECK(at["u.x"][0] > 0);  // it sinks to the right of itself
+      CHECK(at["u.y"][0] < 0);
+    }
 }

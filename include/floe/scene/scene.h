@@ -148,6 +148,7 @@ struct Probe {
   math::Formula formula;             ///< quantity formula, which has no place: of t and of sensors (sensors.h)
   std::string unit;                  ///< likewise
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
+  bool joint_axes = false;           ///< force, moment: in the axes of the joint
   std::optional<Place> toward;       ///< sections and shells: just beside the place, on the element that leads there
   enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell or its layer
   int layer = 0;              ///< of a shell, from 1, the lowest; 0: the whole, for stresses of one material
