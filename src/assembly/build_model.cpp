@@ -23,8 +23,9 @@ namespace {
 
 /// As scenes have it.
 const char* name_of_kind(Joint::Kind kind) {
-  constexpr std::array names{"fixed",     "revolute",  "prismatic", "driven",   "spring",       "cylindrical",
-                             "spherical", "universal", "planar",    "distance", "driven_slide", "bushing"};
+  constexpr std::array names{"fixed",        "revolute",  "prismatic", "driven", "spring",
+                             "cylindrical",  "spherical", "universal", "planar", "distance",
+                             "driven_slide", "bushing",   "support"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -10,6 +10,7 @@
 #include "floe/math/rotation.h"
 #include "floe/petsc/error.h"
 #include "floe/solve/start.h"
+#include "held_reactions.h"
 #include "shell_stress.h"
 
 namespace floe::assembly {
@@ -67,10 +68,10 @@ void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen
   values.insert(values.end(), value.data(), value.data() + 3);
 }
 
-/// What a joint exerts, in world axes or in those of the other place.
-void add_exerted(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                 std::vector<double>& values) {
-  const dynamics::Wrench wrench = exerted(probe.connections, t, q, v);
+/// What a joint exerts, in world axes or in those of the other place. @param held  by dofs without equations
+void add_exerted(const ModelProbe& probe, const dynamics::Wrench& held, double t, const Eigen::VectorXd& q,
+                 const Eigen::VectorXd& v, std::vector<double>& values) {
+  const dynamics::Wrench wrench = held + exerted(probe.connections, t, q, v);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (probe.relative_to) axes.topLeftCorner<2, 2>() = rotation_matrix(placed(*probe.relative_to, q, v).y[2]);
   if (probe.spatial && probe.spatial->relative_to) axes = placed(*probe.spatial->relative_to, q, v).D;
@@ -110,6 +111,28 @@ std::vector<dynamics::Wrench> in_sections(const Model& model, Probes probes, dou
       for (const ModelSection& section : probe.sections) all.push_back(on_part(section.cut, t, q, v, a));
   });
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(6 * all.size()), MPI_DOUBLE, MPI_SUM, model.system->comm());
+  return all;
+}
+
+bool of_reaction(const ModelProbe& probe) {
+  return probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment;
+}
+
+/// What joints exert by dofs that they hold, of all probes of reactions, one after the other. Collective.
+std::vector<dynamics::Wrench> held_reactions(const Model& model, Probes probes, double t, const Eigen::VectorXd& q,
+                                             const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+  std::vector<dynamics::Wrench> all;
+  bool any = false;
+  agree(model, [&] {
+    for (const ModelProbe& probe : probes) {
+      if (!of_reaction(probe)) continue;
+      all.push_back(probe.held ? held_by(*probe.held, t, q, v, a) : dynamics::Wrench(dynamics::Wrench::Zero()));
+      any = any || probe.held;
+    }
+  });
+  if (any)
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(6 * all.size()), MPI_DOUBLE, MPI_SUM,
+                  model.system->comm());
   return all;
 }
 
@@ -244,8 +267,6 @@ void add_shell(Probe::Quantity quantity, const Eigen::Vector3d& s, std::vector<d
 
 void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
-  if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
-    return add_exerted(probe, t, q, v, values);
   if (probe.quantity == Probe::Quantity::drive || probe.quantity == Probe::Quantity::power)
     return values.push_back(drive_or_power(probe, t, q, v));
   if (probe.quantity == Probe::Quantity::formula) return values.push_back(value_of(*probe.formula, t, q, v));
@@ -317,23 +338,27 @@ std::vector<double> values_of(const Model& model, Probes probes, double t, Vec U
   std::vector<double> values;
   std::vector<dynamics::Wrench> wrenches;
   const bool sections = std::any_of(probes.begin(), probes.end(), of_section);
-  if (sections || std::any_of(probes.begin(), probes.end(), of_acceleration)) {
-    whole = q;
+  whole = q;
+  if (sections || std::any_of(probes.begin(), probes.end(), of_acceleration) ||
+      std::any_of(probes.begin(), probes.end(), [](const ModelProbe& probe) { return probe.held != nullptr; })) {
     find_accelerations(model, t, U, V, A, whole, a);
     if (sections) wrenches = in_sections(model, probes, t, whole, v, a);
   }
+  const std::vector<dynamics::Wrench> held = held_reactions(model, probes, t, whole, v, a);
   const MPI_Comm comm = model.system->comm();
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
   const std::vector<Eigen::Vector3d> of_shells = in_shells(model, probes, t, q);
   const std::vector<double> energies = of_bodies(model, probes, t, q, v);
-  std::size_t next = 0, next_shell = 0, next_body = 0;
+  std::size_t next = 0, next_shell = 0, next_body = 0, next_held = 0;
   agree(model, [&] {
     if (rank != size - 1) return;
     for (const ModelProbe& probe : probes) {
       if (of_section(probe))
         add_section(probe, &wrenches[next], q, v, values);
+      else if (of_reaction(probe))
+        add_exerted(probe, held[next_held++], t, q, v, values);
       else if (probe.shell)
         add_shell(probe.quantity, of_shells[next_shell++], values);
       else if (of_acceleration(probe))

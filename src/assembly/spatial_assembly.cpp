@@ -82,6 +82,8 @@ bool SpatialAssembly::stands(int j) const {
 }
 
 const fem::Conditions& SpatialAssembly::constrained(int b) const {
+  static const fem::Conditions none;
+  if (slots_[b].released >= 0) return none;
   return slots_[b].still ? plan_.bodies[b].constrained : plan_.bodies[b].clamp;
 }
 
@@ -201,7 +203,9 @@ void SpatialAssembly::add_coordinates() {
 std::vector<int> SpatialAssembly::coordinates_of(int b) const {
   std::vector<int> all;
   for (int i = 0; i < 6 && !slots_[b].still; ++i) all.push_back(slots_[b].frame + i);
-  for (int i = 0; i < reduced_[b].body.coordinates(); ++i) all.push_back(slots_[b].elastic + i);
+  const Slot& slot = slots_[b];
+  const int k = reduced_[b].body.coordinates(), own = slot.released < 0 ? k : slot.kept;
+  for (int i = 0; i < k; ++i) all.push_back(i < own ? slot.elastic + i : slot.released + i - own);
   return all;
 }
 
@@ -366,8 +370,13 @@ Model SpatialAssembly::model() {
   add_joints(model);
   add_probes(model);
   add_state_loads(model);
-  for (std::size_t p = 0; p < plan_.probes.size(); ++p)
-    if (plan_.scene.probes[p].of_section()) model.probes[p].sections = sections(p, model);
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
+    const Probe& probe = plan_.scene.probes[p];
+    if (probe.of_section()) model.probes[p].sections = sections(p, model);
+    if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
+      model.probes[p].held = held_reaction(static_cast<int>(joint_index(plan_.scene, probe.joint)));
+    if (model.probes[p].held && !model.probes[p].held->nodes.empty()) model.probes[p].connections.clear();
+  }
   dynamics::Attitudes attitudes;
   for (std::size_t b = 0; b < slots_.size(); ++b)
     if (slots_[b].corotated)

@@ -12,6 +12,7 @@
 #include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"
 #include "full_order_modes.h"
+#include "held_reactions.h"
 #include "sections.h"
 #include "state_loads.h"
 #include "whole_modes.h"
@@ -40,6 +41,8 @@ class SpatialAssembly {
     int frame = -1;                                      // local index of R, x; -1: stands still
     int elastic = -1;                                    // local index of reduced coordinates
     int multipliers = -1;                                // of the mean axes
+    int released = -1;                                   // while its held dofs move: the first of these behind others
+    int kept = 0;                                        // likewise of a reduced body: elastic coordinates before them
     std::optional<reference::MassDamping> damping = {};  // at full order
     std::optional<reference::ModalDamping> modal = {};   // likewise
     std::unique_ptr<reference::NodeCoordinates> nodes;
@@ -123,6 +126,10 @@ class SpatialAssembly {
   void add_state_loads(Model& model);
   std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model) const;
   void refuse_loose_supports() const;
+  /// What a joint exerts on dofs of a body that it holds without rows; null: on none. Collective.
+  std::shared_ptr<const HeldReaction> held_reaction(int joint);
+  std::shared_ptr<const HeldReaction> reaction_of_nodes(int joint);
+  void add_body_and_loads(int body, const BodyPart* part);
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   /// @param first  of its multipliers
@@ -161,7 +168,7 @@ class SpatialAssembly {
 
   const Plan& plan_;
   Formulation formulation_;
-  std::span<const ReducedBody> reduced_;
+  std::span<const ReducedBody> reduced_;  // held_reaction() puts others in their place for a moment
   bool owner_;                            // this rank has the shared terms
   bool sees_;                             // it sees what sensors look at
   bool apart_;

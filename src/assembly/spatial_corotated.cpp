@@ -88,10 +88,10 @@ void SpatialAssembly::find_constrained_nodes() {
     const bool released = clamps(joint) && is_unlocked(plan_.scene, joint.name) && is_corotated_mean(*place);
     if (joint.kind != Joint::Kind::support && !released) continue;
     for (const Probe& probe : plan_.scene.probes)
-      if (probe.joint == joint.name && probe.quantity != Probe::Quantity::force)
+      if (probe.joint == joint.name && probe.quantity == Probe::Quantity::power)
         throw InputError(
-            fmt::format("{}: measures joint {}, which in formulation cfr constrains each node of its edge until "
-                        "an event releases it; expected quantity: force, or a place of one node",
+            fmt::format("{}: measures the power of joint {}, which in formulation cfr constrains each node "
+                        "of its place; expected quantity: force or moment",
                         probe.where.text(), joint.name));
     std::vector<ConstrainedNode>& nodes = constrained_nodes_[static_cast<int>(j)];
     const Pieces pieces = clamped_edges(place->body);

@@ -189,7 +189,7 @@ void SpatialAssembly::refuse_loose_supports() const {
     const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
     throw InputError(
         fmt::format("{}: its body can still move as a whole; expected supports and other joints to the ground that "
-                    "leave body {} no rigid motion, without probes and events of these",
+                    "leave body {} no rigid motion, without events of these",
                     joint.where.text(), plan_.bodies[place.body].spec.name));
   }
 }

@@ -18,8 +18,18 @@ bool at_rest(const PlannedBody& body, const body::PlaceMap& map) {
   return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * scene::extent_of(file) <= small;
 }
 
-/// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations.
+bool is_supported(const Plan& plan, int b) {
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if (const Anchor* place = constrained_place(plan, j);
+        place && place->body == b && plan.scene.joints[j].kind == Joint::Kind::support)
+      return true;
+  return false;
+}
+
+/// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations. Not so
+/// of bodies that have supports: HeldReaction.
 bool is_constrained_by_measured(const Plan& plan, int b) {
+  if (is_supported(plan, b)) return false;
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     if (const Anchor* place = constrained_place(plan, j);
         place && place->body == b && is_measured(plan.scene, plan.scene.joints[j].name))

@@ -324,7 +324,7 @@ Columns Statics::solve_bent(Vec q, const Columns& loads) const {
   return std::move(*found);
 }
 
-Columns Statics::constraint_modes(const Columns& moved) const {
+Columns Statics::displaced(const Columns& moved) const {
   if (moved.empty()) return {};
   const fem::Structure& structure = elements_->structure();
   Columns loads, modes;
@@ -335,9 +335,14 @@ Columns Statics::constraint_modes(const Columns& moved) const {
     fem::hold(loads.back(), conditions_);
   }
   modes = corrected(dense_of(loads));
+  for (std::size_t i = 0; i < modes.size(); ++i) check(VecAXPY(modes[i], 1, moved[i]));
+  return modes;
+}
+
+Columns Statics::constraint_modes(const Columns& moved) const {
+  Columns modes = displaced(moved);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     double whole = 0, bent = 0;
-    check(VecAXPY(modes[i], 1, moved[i]));
     check(VecNorm(modes[i], NORM_2, &whole));
     fem::to_frame(frame_, modes[i]);
     check(VecNorm(modes[i], NORM_2, &bent));

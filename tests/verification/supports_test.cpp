@@ -112,3 +112,82 @@ TEST_CASE("supports: refused where the body can still move, and where they canno
   CHECK_THAT(refused(plate(lateral + centre, "events: {off: {unlock: left, at: 1}}\n")),
              Catch::Contains("events.off.unlock: is \"left\", a support"));
 }
+
+namespace {
+
+/// A plate with one clamped edge, a hinged one that meets it and one that moves in its plane, under loads of all kinds.
+std::string on_edges(const std::string& more) {
+  return plate(
+      support("plate.left", "x, y, z, rx, ry, rz") + support("plate.bottom", "x, y, z") + support("plate.right", "z"),
+      "gravity: [0, 0, -$g]\nloads:\n"
+      "  p: {type: pressure, body: plate, pressure: \"2*t - 40*c.z\", follower: false}\n"
+      "  f: {type: force, at: {body: plate, node: [0.75, 0.5, 0]}, force: [3, 1, \"2 + t\"]}\n"
+      "  m: {type: moment, at: {body: plate, node: [0.5, 0.75, 0]}, moment: [$m, \"2*$m\", 0]}\n"
+      "probes:\n  c: {at: {body: plate, node: [0.5, 0.5, 0]}}\n"
+      "  fl: {joint: left}\n  ml: {joint: left, quantity: moment}\n"
+      "  fb: {joint: bottom}\n  mb: {joint: bottom, quantity: moment}\n"
+      "  fr: {joint: right}\n  mr: {joint: right, quantity: moment}\n" +
+          more,
+      "1", "8");
+}
+
+Eigen::Vector3d vector_of(const History& at, const std::string& probe, std::size_t i) {
+  return {at[probe + ".x"][i], at[probe + ".y"][i], at[probe + ".z"][i]};
+}
+
+}  // namespace
+
+// The sum of all reactions and loads vanishes, to round-off in forces; in moments about the undeformed places to second
+// order in the deflection (1e-5 of the side).
+TEST_CASE("supports: reactions of clamped, hinged and sliding edges balance the loads") {
+  const std::vector<std::pair<std::string, Eigen::Vector3d>> edges{
+      {"l", {0, 0.5, 0}}, {"b", {0.5, 0, 0}}, {"r", {1, 0.5, 0}}};
+  std::map<std::string, double> left;
+  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::lffr, Formulation::cfr}) {
+    INFO(scene::name_of(formulation));
+    const double moment = formulation == Formulation::lffr ? 0 : 0.1;  // it rotates with its node, to second order
+    const History at = rest(fill(on_edges(""), {{"g", "0.3"}, {"m", number(moment)}}), formulation);
+    const double p = 2 - 40 * at["c.z"][0], mass = 10;
+    Eigen::Vector3d f(3, 1, 3 + p - mass * 0.3), m(moment, 2 * moment, 0);
+    m += Eigen::Vector3d(0.5, 0.5, 0).cross(Eigen::Vector3d(0, 0, p - mass * 0.3));
+    m += Eigen::Vector3d(0.75, 0.5, 0).cross(Eigen::Vector3d(3, 1, 3));
+    for (const auto& [edge, centre] : edges) {
+      f += vector_of(at, "f" + edge, 0);
+      m += vector_of(at, "m" + edge, 0) + centre.cross(vector_of(at, "f" + edge, 0));
+    }
+    const double size = vector_of(at, "fl", 0).norm();
+    CHECK(size > 0.3);
+    CHECK(std::abs(at["fr.x"][0]) < 1e-9 * size);  // it slides
+    CHECK(f.norm() < (formulation == Formulation::cfr ? 1e-8 : 1e-10) * size);
+    CHECK(m.norm() < (formulation == Formulation::lffr ? 1e-10 : 1e-3) * size);
+    left[scene::name_of(formulation)] = at["fl.z"][0];
+  }
+  CHECK(left.at("cfr") == Approx(left.at("nlffr")).epsilon(0.1));
+  CHECK(left.at("vm+md") == Approx(left.at("nlffr")).epsilon(0.05));
+}
+
+// What a clamp of its own rows, in a frame that moves, exerts in motion, inertia included: another way to the same.
+TEST_CASE("supports: the reaction of a clamped edge in motion is that of a fixed joint") {
+  const std::string rest = R"yaml(
+loads: {f: {type: force, at: {body: plate, node: [1, 0.75, 0]}, force: [5, 2, "1e-3*(1 - cos(60*t))"]}}
+probes:
+  f: {joint: left}
+  m: {joint: left, quantity: moment, axes: $axes}
+  u: {at: {body: plate, node: [1, 0.5, 0]}}
+motion: {end: 0.1, step: 1e-3}
+)yaml";
+  const std::string fixed = "  left: {type: fixed, between: [ground, plate.left]}\n",
+                    reversed = "  left: {type: support, between: [plate.left, ground], hold: [x, y, z, rx, ry, rz]}\n";
+  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr}) {
+    INFO(scene::name_of(formulation));
+    const auto moved = [&](const std::string& joints) {
+      return move(fill(plate(joints, fill(rest, {{"axes", "joint"}}), "1", "4"), {}), formulation);
+    };
+    const History rows = moved(fixed), held = moved(support("plate.left", "x, y, z, rx, ry, rz")),
+                  ground = moved(reversed);
+    const double tolerance = formulation == Formulation::nlffr ? 1e-4 : 0.02;
+    for (const std::string column : {"u.z", "f.z", "m.y"}) CHECK(relative_error(held, rows, column) < tolerance);
+    for (const std::string column : {"f.z", "m.y"})
+      CHECK(held[column].back() == Approx(-ground[column].back()).epsilon(1e-9));
+  }
+}

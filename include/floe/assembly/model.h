@@ -100,6 +100,9 @@ struct ModelSection {
 /// What a shell's stresses follow from (shell_stress.h).
 struct ShellPoint;
 
+/// What a joint exerts on nodes of a body that it holds without constraint rows (held_reactions.h).
+struct HeldReaction;
+
 /// A probe of a planar scene, by the markers that it looks at.
 struct ModelProbe {
   std::string name;
@@ -119,6 +122,7 @@ struct ModelProbe {
   std::optional<dynamics::Marker> other = {};                  ///< drive, power: the first place of the joint
   DrivenCoordinate drive = {};                                 ///< likewise
   std::vector<const dynamics::Term*> terms = {};  ///< of a body's energy: this rank's, which are the system's
+  std::shared_ptr<const HeldReaction> held = {};  ///< of a joint that holds dofs; null: none
 };
 
 /// One side of a joint's limits.

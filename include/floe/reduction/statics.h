@@ -39,6 +39,8 @@ class Statics {
   /// and the others constrained to zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and
   /// Bampton 1968. Collective. One block solve, the same factor.
   Columns constraint_modes(const Columns& moved) const;
+  /// The same as they are, not in the frame: together they may be a rigid motion.
+  Columns displaced(const Columns& moved) const;
 
   /// For those who need K under the same conditions: the matrix, its conditions, and the solver with its factor.
   Mat stiffness() const { return K_; }

@@ -23,6 +23,7 @@ class NodeCoordinates {
   int of_local_node(int local) const { return first_ + dofs_ * local; }
   /// Likewise from the global number; throws std::out_of_range where it is not seen.
   int of_node(PetscInt global) const { return first_of_node_.at(global); }
+  bool sees(PetscInt global) const { return first_of_node_.contains(global); }
   int first() const { return first_; }
 
  private:
