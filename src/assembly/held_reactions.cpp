@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/damping.h"
+#include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/local_indices.h"
 #include "floe/petsc/all_ranks.h"
 #include "floe/petsc/values.h"
@@ -68,7 +68,8 @@ Wrench held_by(const HeldReaction& reaction, double t, const Eigen::VectorXd& q,
     dynamics::pick(coordinates, all_a, second);
   };
   const auto add = [&](const std::vector<int>& coordinates, double factor) {
-    for (std::size_t i = 0; i < coordinates.size(); ++i) sums[coordinates[i]] += factor * r[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+      sums[coordinates[i]] += factor * r[static_cast<Eigen::Index>(i)];
   };
   for (const auto& term : reaction.terms) {
     pick(term->coordinates());
@@ -187,10 +188,10 @@ void refuse_rims(const Plan& plan, int j) {
   for (const int other : joints_holding(plan, place.body))
     if (const Anchor& there = *constrained_place(plan, static_cast<std::size_t>(other));
         other != j && place.line && there.line && there.node == place.node)
-      throw InputError(fmt::format("{}: joints {} and {} hinge edges that meet, whose reactions are those of one rim; "
-                                   "expected supports (type: support) in place of the hinges whose reactions are measured",
-                                   plan.scene.joints[j].where.text(), plan.scene.joints[j].name,
-                                   plan.scene.joints[other].name));
+      throw InputError(
+          fmt::format("{}: joints {} and {} hinge edges that meet, whose reactions are those of one rim; "
+                      "expected supports (type: support) in place of the hinges whose reactions are measured",
+                      plan.scene.joints[j].where.text(), plan.scene.joints[j].name, plan.scene.joints[other].name));
 }
 
 }  // namespace
@@ -284,8 +285,8 @@ std::shared_ptr<const HeldReaction> SpatialAssembly::held_reaction(int j) {
   for (const auto& [other, connections] : connections_)
     for (const int side : {0, 1})
       if (plan_.joints[other][side].body == b)
-        reaction->others.push_back({connections, side, placed_[other].places[0], placed_[other].places[1],
-                                    marker(plan_.joints[other][side])});
+        reaction->others.push_back(
+            {connections, side, placed_[other].places[0], placed_[other].places[1], marker(plan_.joints[other][side])});
   slot.released = -1;
   reduced_ = own;
   return reaction;

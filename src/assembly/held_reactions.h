@@ -12,9 +12,9 @@ namespace floe::assembly {
 ///
 ///   R_c = W_c' (M q.. + dU/dq - f),   c = x, y, z of its place, and rotations about it
 ///
-/// In formulation cfr it is the sum over nodes. At full order W_c moves the held nodes alone. On reduced coordinates it is their static displacement field (static
-/// constraint modes, Craig and Bampton 1968), so that the fields of all joints together are rigid motions and all
-/// reactions together balance loads and inertia.
+/// In formulation cfr it is the sum over nodes. At full order W_c moves the held nodes alone. On reduced coordinates it
+/// is their static displacement field (static constraint modes, Craig and Bampton 1968), so that the fields of all
+/// joints together are rigid motions and all reactions together balance loads and inertia.
 struct HeldReaction {
   /// Rows of this rank: of the body with the fields among its coordinates, which are zero, behind those of the system.
   std::vector<std::shared_ptr<const dynamics::Term>> terms;

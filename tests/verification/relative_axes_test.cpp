@@ -2,8 +2,8 @@
 
 #include "space_twin.h"
 
-// `relative_to` in the plane: components in axes that rotate with a place from those of the mesh, as in space. All lines
-// are oblique, so that the axes of the floating frames differ from these.
+// `relative_to` in the plane: components in axes that rotate with a place from those of the mesh, as in space. All
+// lines are oblique, so that the axes of the floating frames differ from these.
 
 using namespace floe;
 using namespace floe::test;
@@ -44,7 +44,11 @@ probes:
   reaction: {joint: root, relative_to: arm.start}
   inside: {joint: elbow, relative_to: rod.start}
 )yaml",
-              {{"section", section}, {"frame", frame}, {"axis", axis}, {"0", nothing}, {"nu", space ? ", nu: 0.3" : ""}}) +
+              {{"section", section},
+               {"frame", frame},
+               {"axis", axis},
+               {"0", nothing},
+               {"nu", space ? ", nu: 0.3" : ""}}) +
          rest;
 }
 
@@ -56,7 +60,7 @@ loads: {f: {type: force, at: b.end, force: [1, 0]}}
 motion: {end: 1, step: 0.1}
 probes: {F: {joint: g, quantity: force, relative_to: b.start}}
 )yaml",
-                                                                  "scene"),
+                                                                   "scene"),
                                                 formulation, PETSC_COMM_WORLD);
   solve::equilibrium(*model.system, 0, model.U, model.V);
   const std::vector<double> values = assembly::probe_values(model, 0, model.U, model.V);
@@ -72,7 +76,8 @@ TEST_CASE("relative axes: an oblique strut's reaction has the components of the 
            with;
   };
   for (const char* frame : {"pinned", "clamped", "mean-axis"})
-    for (const Formulation formulation : {Formulation::vm, Formulation::vm_md, Formulation::lffr, Formulation::nlffr, Formulation::cfr}) {
+    for (const Formulation formulation :
+         {Formulation::vm, Formulation::vm_md, Formulation::lffr, Formulation::nlffr, Formulation::cfr}) {
       INFO(frame << ", " << scene::name_of(formulation));
       const Eigen::Vector2d F = reaction_of_strut(strut("    frame: " + std::string(frame) + "\n"), formulation);
       CHECK((F - Eigen::Vector2d(-1, 0)).norm() < 1e-4);
@@ -84,7 +89,8 @@ TEST_CASE("relative axes: probes and sensors of oblique bodies in the plane are 
   for (const char* frame : {"pinned", "clamped", "mean-axis"})
     for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
       INFO(frame << ", " << scene::name_of(formulation));
-      const History plane = move(mechanism(false, frame), formulation), space = move(mechanism(true, frame), formulation);
+      const History plane = move(mechanism(false, frame), formulation),
+                    space = move(mechanism(true, frame), formulation);
       for (const char* probe : {"seen", "moved", "back", "speed", "felt", "tip", "reaction", "inside"}) {
         INFO(probe);
         CHECK(apart(space, Eigen::Matrix3d::Identity(), plane, probe) < 0.02);

@@ -40,7 +40,8 @@ class Given {
 
 TEST_CASE("options files: what PETSc would abort at is named with file and line, and taken out") {
   const OwnFolder own;
-  const std::string well = own.write("well", "# a comment\n-motion_ts_dt 0.1 # behind\n\n-log_view \"a b\"\nalias -a -b\n");
+  const std::string well =
+      own.write("well", "# a comment\n-motion_ts_dt 0.1 # behind\n\n-log_view \"a b\"\nalias -a -b\n");
   Words words = {"floe", "-options_file", well, "-motion_snes_monitor"};
   const Words before = words;
   CHECK(app::take_bad_option_files(words).empty());
@@ -109,7 +110,8 @@ TEST_CASE("options of a command line: faults before the work, a fault of the wor
   CHECK_NOTHROW(app::check_options("run"));
   CHECK_THROWS_WITH(app::check_options("modes"), Contains("-static_snes_max_it 5: floe modes has no solver"));
   app::check_options("run");
-  CHECK_THAT(app::with_options("it failed"), Contains("it failed (options given: -") && Contains("-static_snes_max_it 5"));
+  CHECK_THAT(app::with_options("it failed"),
+             Contains("it failed (options given: -") && Contains("-static_snes_max_it 5"));
   CHECK(app::with_options("option -motion_ts_... failed") == "option -motion_ts_... failed");
   CHECK_THROWS_WITH(app::check_unused(),
                     Contains("-static_snes_max_it 5: not used in this run; its results are complete"));
@@ -117,7 +119,8 @@ TEST_CASE("options of a command line: faults before the work, a fault of the wor
 
 TEST_CASE("a fault lists eight of the options at most") {
   Words many;
-  for (int i = 1; i <= 9; ++i) many.push_back("-derivatives_mat_mumps_icntl_" + std::to_string(i > 4 ? i + 5 : i) + " 1");
+  for (int i = 1; i <= 9; ++i)
+    many.push_back("-derivatives_mat_mumps_icntl_" + std::to_string(i > 4 ? i + 5 : i) + " 1");
   const Given given(many);
   try {
     app::check_options("run");

@@ -72,8 +72,9 @@ TEST_CASE("motion and stress: requests, and files of a run") {
                                       "joints:\n  root: {type: fixed, between: [ground, beam.start]}\n"
                                       "loads:\n  tip: {type: force, at: beam.end, force: [0, 0.03]}\n"
                                       "motion: {end: 0.1, step: 0.01}\n");
-  const Line stress(words("stress out --at 0.1,0.2 --frames 3 --history beam:1,0 --source beam:s.yaml --scene t.yaml "
-                          "--uncorrected --amplify 4 --force -o s.xdmf"));
+  const Line stress(
+      words("stress out --at 0.1,0.2 --frames 3 --history beam:1,0 --source beam:s.yaml --scene t.yaml "
+            "--uncorrected --amplify 4 --force -o s.xdmf"));
   const app::StressRequest& request = stress.showing.stress;
   CHECK(request.at == std::vector<double>{0.1, 0.2});
   CHECK(request.histories == std::vector<std::string>{"beam:1,0"});
