@@ -14,5 +14,5 @@ floe_room(output "JSON, CSV, HDF5, XDMF, tables, checkpoints, files of reduced b
 floe_room(scene "text to Scene: what the user wrote, checked, without meshes" output fem body petsc math)
 floe_room(plan "Scene to Plan: meshes, floating frames, places and joints resolved on nodes" scene output reduction fem generate mesh body petsc math)
 floe_room(assembly "Plan to Model: reduced or full-order bodies, joints and loads as a System with its start" plan scene output reference reduction solve dynamics fem generate mesh body petsc math)
-floe_room(assess "Model and its states to error estimate, validity warnings, basis selection" assembly plan scene output reference reduction solve dynamics fem generate mesh body petsc math)
+floe_room(assess "Model and its states to error estimate, validity warnings, basis selection, properties of bodies" assembly plan scene output reference reduction solve dynamics fem generate mesh body petsc math)
 floe_room(app "the command line: one file for each command" assess assembly plan scene output reference reduction solve dynamics fem generate mesh body petsc math)

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "commands.h"
-#include "floe/assembly/body_properties.h"
-#include "floe/assembly/check_modes.h"
+#include "floe/assess/body_properties.h"
+#include "floe/assess/check_modes.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
 #include "notices.h"
@@ -112,7 +112,7 @@ scene::Formulation first_possible(const scene::Scene& scene) {
 double cleaned(double value, double scale) { return std::abs(value) > 1e-12 * scale ? value : 0; }
 
 /// Mass, centre of gravity, moments of inertia about it, and extent of each body.
-void print_properties(const std::vector<assembly::BodyProperties>& bodies, int dimension) {
+void print_properties(const std::vector<assess::BodyProperties>& bodies, int dimension) {
   output::Table table, moments;
   table.columns = {{"body", ""}, {"mass", "kg", 7}};
   moments.columns = {{"inertia", ""}};
@@ -123,7 +123,7 @@ void print_properties(const std::vector<assembly::BodyProperties>& bodies, int d
   if (dimension == 2) table.columns.push_back({"inertia", "kg m2", 7});
   constexpr std::pair<int, int> entries[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   for (const auto& [i, j] : entries) moments.columns.push_back({fmt::format("{}{}", "xyz"[i], "xyz"[j]), "kg m2", 7});
-  for (const assembly::BodyProperties& body : bodies) {
+  for (const assess::BodyProperties& body : bodies) {
     auto& row = table.rows.emplace_back(std::vector<output::Cell>{body.name, body.mass});
     const Eigen::Vector3d extent = body.box ? (body.box->high - body.box->low).eval() : Eigen::Vector3d::Zero().eval();
     const double length = std::max(extent.norm(), body.centre.norm());
@@ -139,7 +139,7 @@ void print_properties(const std::vector<assembly::BodyProperties>& bodies, int d
 }
 
 /// Of flexible bodies: free of supports, and as their modes are constrained.
-output::Table frequency_table(const std::vector<assembly::BodyProperties>& bodies) {
+output::Table frequency_table(const std::vector<assess::BodyProperties>& bodies) {
   output::Table table;
   const bool constrained =
       std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return !body.constrained.empty(); });
@@ -148,7 +148,7 @@ output::Table frequency_table(const std::vector<assembly::BodyProperties>& bodie
   const auto hertz = [](const std::vector<double>& omega, std::size_t i) {
     return i < omega.size() ? output::Cell(omega[i] / (2 * M_PI)) : output::Cell("-");
   };
-  for (const assembly::BodyProperties& body : bodies)
+  for (const assess::BodyProperties& body : bodies)
     for (std::size_t i = 0; i < std::max(body.free.size(), body.constrained.size()); ++i) {
       auto& row = table.rows.emplace_back(std::vector<output::Cell>{body.name, static_cast<std::int64_t>(i + 1)});
       row.push_back(hertz(body.free, i));
@@ -162,8 +162,8 @@ output::Table frequency_table(const std::vector<assembly::BodyProperties>& bodie
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted, int frequencies) {
   const scene::Scene split = plan::split_frames(scene, comm);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
-  assembly::check_modes(scene, comm);
-  const std::vector<assembly::BodyProperties> properties = assembly::body_properties(scene, comm, frequencies);
+  assess::check_modes(scene, comm);
+  const std::vector<assess::BodyProperties> properties = assess::body_properties(scene, comm, frequencies);
   std::int64_t elements = 0;
   for (std::size_t b = 0; b < sizes.size(); ++b)
     if (!split.bodies[b].reduced) elements += sizes[b].elements;

@@ -48,9 +48,10 @@ const Names in_solve = {"ts_view",
                         "rg_view",
                         "mat_partitioning_view",
                         "mat_partitioning_view_imbalance"};
-/// In names that are not judged: of matrices and solvers that others make when they solve, and of windows.
-const char* const not_judged[] = {"mat_mffd_", "mat_fd_", "mat_coloring_", "mat_coarsen_", "mat_product_",
-                                  "npc_",      "_lg",     "draw",          "_sp_",         "envelope"};
+/// In names that are not judged: of matrices and solvers that others make when they solve, of windows, and of what
+/// PCBDDC reads while it is set up.
+const char* const not_judged[] = {"mat_mffd_", "mat_fd_", "mat_coloring_", "mat_coarsen_", "mat_product_", "npc_",
+                                  "_lg",       "draw",    "_sp_",          "envelope",     "pc_bddc_"};
 
 /// A solver within preconditioners, or linear solvers, of some types, by its part of an option's prefix.
 struct Inner {

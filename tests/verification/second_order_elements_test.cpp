@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "floe/assembly/body_properties.h"
+#include "floe/assess/body_properties.h"
 #include "floe/solve/branch.h"
 #include "shell_decks.h"
 
@@ -278,7 +278,7 @@ TEST_CASE("mass, centre and inertia of bodies of second order") {
         return Vector3d(L * u, R * std::sin(b), R * std::cos(b));
       }));
   const auto scene = scene::parse_scene("bodies: {p: {mesh: {file: {path: " + deck.path() + "}}}}\n", "scene");
-  const auto found = assembly::body_properties(scene, PETSC_COMM_WORLD, 0).at(0);
+  const auto found = assess::body_properties(scene, PETSC_COMM_WORLD, 0).at(0);
   const double mass = rho * h * L * 2 * a * R, height = R * std::sin(a) / a, own = h * h / 12;
   CHECK(found.mass == Approx(mass).epsilon(1e-6));
   CHECK((found.centre - Vector3d(L / 2, 0, height)).norm() < 1e-6);

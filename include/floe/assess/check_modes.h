@@ -1,7 +1,7 @@
 #pragma once
 #include "floe/scene/scene.h"
 
-namespace floe::assembly {
+namespace floe::assess {
 using namespace scene;
 
 /// Whether every flexible body with a mesh has as many modes as its reduction asks for, under their conditions. Bodies
@@ -9,4 +9,4 @@ using namespace scene;
 /// @throws InputError  a line for each that has not; RunError. Collective.
 void check_modes(const Scene& scene, MPI_Comm comm);
 
-}  // namespace floe::assembly
+}  // namespace floe::assess

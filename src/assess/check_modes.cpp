@@ -1,4 +1,4 @@
-#include "floe/assembly/check_modes.h"
+#include "floe/assess/check_modes.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,8 @@
 
 #include "floe/assembly/body_stage.h"
 
-namespace floe::assembly {
+namespace floe::assess {
+using namespace assembly;
 
 void check_modes(const Scene& whole, MPI_Comm comm) {
   constexpr PetscInt plenty = 12;
@@ -28,4 +29,4 @@ void check_modes(const Scene& whole, MPI_Comm comm) {
   if (!faults.empty()) throw InputError(faults);
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::assess

@@ -1,4 +1,4 @@
-#include "floe/assembly/body_properties.h"
+#include "floe/assess/body_properties.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,12 +8,12 @@
 
 using namespace floe;
 using namespace floe::test;
-using assembly::BodyProperties;
+using assess::BodyProperties;
 
 namespace {
 
 BodyProperties properties(const std::string& text, int frequencies = 0) {
-  const auto all = assembly::body_properties(scene::parse_scene(text, "scene.yaml"), PETSC_COMM_WORLD, frequencies);
+  const auto all = assess::body_properties(scene::parse_scene(text, "scene.yaml"), PETSC_COMM_WORLD, frequencies);
   REQUIRE(all.size() == 1);
   return all[0];
 }

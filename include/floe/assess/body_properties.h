@@ -5,7 +5,7 @@
 
 #include "floe/scene/scene.h"
 
-namespace floe::assembly {
+namespace floe::assess {
 using namespace scene;
 
 /// What one compares with another program before anything is simulated. In the axes of the mesh; of a body from a file
@@ -27,4 +27,4 @@ struct BodyProperties {
 /// @param frequencies  how many to find of each kind; fewer where the body has fewer; 0: nothing is assembled
 std::vector<BodyProperties> body_properties(const Scene& scene, MPI_Comm comm, int frequencies);
 
-}  // namespace floe::assembly
+}  // namespace floe::assess

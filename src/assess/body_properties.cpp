@@ -1,10 +1,12 @@
-#include "floe/assembly/body_properties.h"
+#include "floe/assess/body_properties.h"
 
 #include "floe/assembly/body_stage.h"
 #include "floe/plan/interface.h"
 #include "floe/plan/mesh_copy.h"
 
-namespace floe::assembly {
+namespace floe::assess {
+using namespace assembly;
+
 namespace {
 
 /// From int rho, int rho x and int rho x x' about the frame's origin, in the axes that `frame` gives.
@@ -71,4 +73,4 @@ std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, i
   return all;
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::assess
