@@ -156,7 +156,7 @@ TEST_CASE("validity: boxes of shells at large deflections are too stiff by the r
 
 // Edges that joints hold contract as they rotate with von Karman's strains, too, and the indicator knows: what is left
 // missing is small (without the contraction the edge itself would be stretched: 35 %).
-TEST_CASE("validity: nothing is said of a strip that twists with a rigid edge") {
+TEST_CASE("validity: no warning for a strip that twists with a rigid edge") {
   const std::string text = R"yaml(
 bodies:
   strip:

@@ -370,7 +370,7 @@ probes: {tip: {at: strip.right}, v: {at: strip.right, quantity: velocity}}
   CHECK(*std::max_element(at["tip.z"].begin(), at["tip.z"].end()) > 1.2 * w);
 }
 
-TEST_CASE("state loads: drives refuse sensors, and say what to use instead") {
+TEST_CASE("state loads: drives refuse sensors, and name the alternative") {
   try {
     scene::parse_scene(R"yaml(
 bodies: {rod: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}}

@@ -60,7 +60,7 @@ TEST_CASE("clamped plate under pressure: reduced") {
 }
 
 // Response vectors of a boom with next to no mass have little that is new in M, and are what the answer needs.
-TEST_CASE("plate with a boom of almost no mass: reduced as at full order") {
+TEST_CASE("plate with a boom of almost no mass: reduced as the full-order model") {
   const Scratch scratch;
   std::string deck = "*NODE\n", sets = "*NSET, NSET=left\n1,2,3\n*NSET, NSET=tip\n20\n";
   for (int i = 0; i < 15; ++i) deck += fmt::format("{}, {}, {}, 0\n", i + 1, 0.1 * (i / 3), 0.1 * (i % 3));
