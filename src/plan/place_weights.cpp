@@ -184,14 +184,15 @@ Weights edge_weights(const fem::Mesh& mesh, const Set& set, const std::vector<do
   return weights;
 }
 
-/// Mean of n n' over the shells that have at least two nodes of the place, by their areas: of flat ones n n'.
-/// Collective.
-Eigen::Matrix3d mean_normals(const fem::Mesh& mesh, const Set& set) {
+/// Mean of n n' over the shells that have so many corners at least in the place, by their areas: of flat ones n n';
+/// zero where there are none. Collective.
+Eigen::Matrix3d mean_normals(const fem::Mesh& mesh, const Set& set, int shared) {
   Eigen::Matrix<double, 3, 4> sums = Eigen::Matrix<double, 3, 4>::Zero();
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     if (!is_shell(cell)) continue;
     const auto corners = cell.corners();
-    if (std::count_if(corners.begin(), corners.end(), [&](int corner) { return set.of(corner) >= 0; }) < 2) continue;
+    if (std::count_if(corners.begin(), corners.end(), [&](int corner) { return set.of(corner) >= 0; }) < shared)
+      continue;
     const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return mesh.positions[corners[i]]; };
     const Eigen::Vector3d n = corners.size() == 4 ? Eigen::Vector3d((at(2) - at(0)).cross(at(3) - at(1)))
                                                   : Eigen::Vector3d((at(1) - at(0)).cross(at(2) - at(0)));
@@ -211,7 +212,9 @@ Eigen::Matrix3d mean_normals(const fem::Mesh& mesh, const Set& set) {
 /// Exact for every rigid motion. Collective.
 void turn_by_displacements(const fem::Mesh& mesh, const Set& set, Weights& weights) {
   constexpr double flat = 0.95;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> normals(mean_normals(mesh, set));
+  Eigen::Matrix3d mean_of_normals = mean_normals(mesh, set, 2);
+  if (mean_of_normals.isZero(0)) mean_of_normals = mean_normals(mesh, set, 1);  // nodes apart from each other
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> normals(mean_of_normals);
   if (!(normals.eigenvalues()[2] > flat)) return;
   const Eigen::Vector3d n = normals.eigenvectors().col(2);
   Eigen::Matrix3Xd r = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(weights.size()));

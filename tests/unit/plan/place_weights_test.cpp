@@ -77,10 +77,13 @@ TEST_CASE("weights of places: edges of flat and slightly curved shells rotate ab
   const double camber = GENERATE(0., 0.05);
   Grid grid(generate::ShellCells::quadrilaterals);
   for (Eigen::Vector3d& x : grid.mesh.positions) x.z() = camber * x.y() * x.y();
+  const bool apart = GENERATE(false, true);  // nodes of one edge, or none of one element
   std::vector<PetscInt> nodes;
   std::vector<Eigen::Vector3d> places;
-  for (const double y : {0., 0.5, 1.})
-    places.emplace_back(1, y, camber * y * y), nodes.push_back(fem::nearest_node(grid.mesh, places.back()).node);
+  for (const double y : {0., 0.5, 1.}) {
+    places.emplace_back(apart && y != 0.5 ? 0 : 1, y, camber * y * y);
+    nodes.push_back(fem::nearest_node(grid.mesh, places.back()).node);
+  }
   const auto weights = plan::place_weights(grid.mesh, nodes);
   const auto rotation = [&](auto&& u, auto&& theta) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
