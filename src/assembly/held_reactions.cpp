@@ -182,6 +182,19 @@ ReducedBody with_fields(const PlannedBody& body, const ReducedBody& reduced, con
   return all;
 }
 
+/// Whether cells have one of the dofs.
+std::vector<char> cells_at(const fem::Mesh& mesh, const HeldDofs& held) {
+  std::vector<char> found;
+  for (const fem::Mesh::Cell& cell : mesh.cells) {
+    const auto nodes = cell.nodes();
+    found.push_back(std::any_of(nodes.begin(), nodes.end(), [&](int node) {
+      const auto first = held.lower_bound(6 * mesh.global_node(node));
+      return first != held.end() && first->first < 6 * mesh.global_node(node) + 6;
+    }));
+  }
+  return found;
+}
+
 /// Hinged edges that meet hold one rim together.
 void refuse_rims(const Plan& plan, int j) {
   const Anchor& place = *constrained_place(plan, static_cast<std::size_t>(j));
@@ -264,14 +277,7 @@ std::shared_ptr<const HeldReaction> SpatialAssembly::held_reaction(int j) {
     reduced_ = released;
     for (int c = 0; c < 6 && owner_; ++c) reaction->rows.push_back({slot.released + c, Wrench::Unit(c)});
   } else {
-    const fem::Mesh& mesh = body.structure.mesh;
-    for (const fem::Mesh::Cell& cell : mesh.cells) {
-      const auto nodes = cell.nodes();
-      part.cells.push_back(std::any_of(nodes.begin(), nodes.end(), [&](int node) {
-        const auto first = held.lower_bound(6 * mesh.global_node(node));
-        return first != held.end() && first->first < 6 * mesh.global_node(node) + 6;
-      }));
-    }
+    part.cells = cells_at(body.structure.mesh, held);
     for (const auto& [dof, wrench] : held)
       if (slot.nodes->sees(dof / 6))
         reaction->rows.push_back({slot.nodes->of_node(dof / 6) + static_cast<int>(dof % 6), wrench});
@@ -290,6 +296,27 @@ std::shared_ptr<const HeldReaction> SpatialAssembly::held_reaction(int j) {
   slot.released = -1;
   reduced_ = own;
   return reaction;
+}
+
+void SpatialAssembly::add_held_reactions(Model& model) {
+  std::map<int, std::shared_ptr<const HeldReaction>> found;  // force and moment of a joint have one
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
+    const Probe& probe = plan_.scene.probes[p];
+    if (probe.quantity != Probe::Quantity::force && probe.quantity != Probe::Quantity::moment) continue;
+    const int j = static_cast<int>(joint_index(plan_.scene, probe.joint));
+    const auto [at, first] = found.try_emplace(j);
+    if (first) at->second = held_reaction(j);
+    const auto& held = model.probes[p].held = at->second;
+    if (!held) continue;
+    if (!held->nodes.empty()) model.probes[p].connections.clear();
+    const Anchor* place = constrained_place(plan_, static_cast<std::size_t>(j));
+    const DampingSpec& damping = plan_.bodies[place->body].spec.damping;
+    if (first && held->nodes.empty() && (damping.mass != 0 || !damping.modal.empty()))
+      model.warnings.push_back(
+          fmt::format("joint {}: its reaction is without the forces of damping.mass and "
+                      "damping.modal of body {}",
+                      probe.joint, plan_.bodies[place->body].spec.name));
+  }
 }
 
 }  // namespace floe::assembly

@@ -370,13 +370,9 @@ Model SpatialAssembly::model() {
   add_joints(model);
   add_probes(model);
   add_state_loads(model);
-  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
-    const Probe& probe = plan_.scene.probes[p];
-    if (probe.of_section()) model.probes[p].sections = sections(p, model);
-    if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
-      model.probes[p].held = held_reaction(static_cast<int>(joint_index(plan_.scene, probe.joint)));
-    if (model.probes[p].held && !model.probes[p].held->nodes.empty()) model.probes[p].connections.clear();
-  }
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p)
+    if (plan_.scene.probes[p].of_section()) model.probes[p].sections = sections(p, model);
+  add_held_reactions(model);
   dynamics::Attitudes attitudes;
   for (std::size_t b = 0; b < slots_.size(); ++b)
     if (slots_[b].corotated)

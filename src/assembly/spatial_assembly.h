@@ -126,7 +126,9 @@ class SpatialAssembly {
   void add_state_loads(Model& model);
   std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model) const;
   void refuse_loose_supports() const;
-  /// What a joint exerts on dofs of a body that it holds without rows; null: on none. Collective.
+  /// Gives probes of reactions what their joints exert on dofs that these hold without rows. Collective.
+  void add_held_reactions(Model& model);
+  /// Null: on none. Collective.
   std::shared_ptr<const HeldReaction> held_reaction(int joint);
   std::shared_ptr<const HeldReaction> reaction_of_nodes(int joint);
   void add_body_and_loads(int body, const BodyPart* part);
