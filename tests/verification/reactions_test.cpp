@@ -419,29 +419,3 @@ probes: {f: {joint: slide, axes: joint}}
   CHECK(std::abs(slide["f.x"].back()) < 1e-9);
   CHECK(slide["f.y"].back() == Approx(-3 * 10 * 0.6));  // on the ground
 }
-
-// The axes of a place are those of its mesh, whatever the frame: of a rod oblique in its mesh, too.
-TEST_CASE("components relative to a place do not depend on the frame of its body", "[verification]") {
-  const std::string text = R"yaml(
-gravity: [0, -10]
-bodies:
-  rod:
-    mesh: {line: {from: [0, 0], to: [0.6, 0.8], elements: 4}}
-    section: {EA: 1e5, EI: 1e2, rhoA: 2}
-    frame: $frame
-    reduction: {modes: 4}
-    initial: {angle: 0.3}
-joints: {root: {type: fixed, between: [ground, rod.start]}}
-probes: {f: {joint: root, relative_to: rod.start}, u: {at: rod.end, relative_to: rod.start}}
-)yaml";
-  const double c = std::cos(0.3), s = std::sin(0.3);
-  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr})
-    for (const char* frame : {"{type: clamped, at: start}", "{type: pinned, from: start, to: end}"}) {
-      INFO(scene::name_of(formulation) << " " << frame);
-      const History at = rest(fill(text, {{"frame", frame}}), formulation);
-      CHECK(at["f.x"][0] == Approx(20 * s).epsilon(2e-2));
-      CHECK(at["f.y"][0] == Approx(20 * c).epsilon(2e-2));
-      CHECK(at["u.x"][0] > 0);  // it sinks to the right of itself
-      CHECK(at["u.y"][0] < 0);
-    }
-}

@@ -90,11 +90,24 @@ std::string scene_of(const char* text, const std::string& when, const std::strin
   return fill(text, {{"when", when}, {"elements", elements}, {"step", step}});
 }
 
-assess::ErrorPart reduction_of(const assess::Estimate& estimate) {
-  assess::ErrorPart part;
-  part.none = estimate.none, part.probes = estimate.probes, part.t = estimate.t, part.errors = estimate.errors;
-  return part;
-}
+/// All parts of the error, and their total.
+struct Parts {
+  assess::Estimate full;
+  assess::ErrorPart reduction, model, mesh, step;
+  std::vector<double> total;
+
+  explicit Parts(const Switched& moved) {
+    const assess::FinishedMotion motion = moved.motion(moved.scene);
+    full = assess::estimate_by_full_order(motion, moved.own, 100);
+    reduction.none = full.none, reduction.probes = full.probes, reduction.t = full.t, reduction.errors = full.errors;
+    mesh = assess::estimate_mesh_error(motion, moved.own, 100);
+    model = assess::estimate_model_error(motion, moved.own, full, mesh, 100);
+    const assess::StepError steps =
+        assess::estimate_step_error(moved.history.model, moved.start, moved.kept, moved.how, 0.1, 100);
+    step.none = steps.none, step.probes = steps.probes, step.t = steps.t, step.errors = steps.errors;
+    total = assess::total_error(moved.own, {&reduction, &mesh, &model, &step});
+  }
+};
 
 }  // namespace
 
@@ -109,19 +122,11 @@ TEST_CASE("error budget: parts and total of a motion whose joints change") {
     const Switched moved(scene_of(one.text, one.when, "8", "2e-3"));
     const History exact = move(scene_of(one.text, one.when, "32", "2.5e-4"), Formulation::cfr);
     const assess::FinishedMotion motion = moved.motion(moved.scene);
-    const assess::Estimate full = assess::estimate_by_full_order(motion, moved.own, 100);
-    const assess::ErrorPart mesh = assess::estimate_mesh_error(motion, moved.own, 100),
-                            model = assess::estimate_model_error(motion, moved.own, full, mesh, 100),
-                            reduction = reduction_of(full);
-    const assess::StepError steps =
-        assess::estimate_step_error(moved.history.model, moved.start, moved.kept, moved.how, 0.1, 100);
-    for (const std::string& none : {full.none, mesh.none, model.none, steps.none}) CHECK(none == "");
+    const auto [full, reduction, model, mesh, step, total] = Parts(moved);
+    for (const std::string& none : {full.none, mesh.none, model.none, step.none}) CHECK(none == "");
     CHECK_THAT(full.by, Catch::StartsWith("formulation nlffr, same mesh"));
     CHECK_FALSE(model.with_reduction);
     CHECK((model.by.find("steps 1/") != std::string::npos) == (one.text == bent_in_space));
-    assess::ErrorPart step;
-    step.probes = steps.probes, step.t = steps.t, step.errors = steps.errors;
-    const std::vector<double> total = assess::total_error(moved.own, {&reduction, &mesh, &model, &step});
     for (std::size_t p = 0; p < total.size(); ++p) {
       const std::string& probe = moved.history.model.probes[p].name;
       if (probe == "held" && one.when != "at: 0.6") continue;  // it jumps at another time in the exact motion
@@ -163,16 +168,7 @@ probes:
 )yaml";
   const Switched moved(scene_of(arms, "at: 0.1234", "8", "5e-4"));
   const History exact = move(scene_of(arms, "at: 0.1234", "16", "6.25e-5"), Formulation::cfr);
-  const assess::FinishedMotion motion = moved.motion(moved.scene);
-  const assess::Estimate full = assess::estimate_by_full_order(motion, moved.own, 100);
-  const assess::ErrorPart mesh = assess::estimate_mesh_error(motion, moved.own, 100),
-                          model = assess::estimate_model_error(motion, moved.own, full, mesh, 100),
-                          reduction = reduction_of(full);
-  const assess::StepError steps =
-      assess::estimate_step_error(moved.history.model, moved.start, moved.kept, moved.how, 0.1, 100);
-  assess::ErrorPart step;
-  step.probes = steps.probes, step.t = steps.t, step.errors = steps.errors;
-  const std::vector<double> total = assess::total_error(moved.own, {&reduction, &mesh, &model, &step});
+  const auto [full, reduction, model, mesh, step, total] = Parts(moved);
   for (std::size_t p = 0; p < total.size(); ++p) {
     const std::string& probe = moved.history.model.probes[p].name;
     const double error = vector_error(moved.history, exact, probe);
