@@ -9,7 +9,7 @@
 
 #include "connections.h"
 #include "floe/dynamics/marker.h"
-#include "independent_rows.h"
+#include "floe/math/independent_rows.h"
 
 namespace floe::assembly {
 namespace {
@@ -134,11 +134,11 @@ void leave_out(const Plan& plan, const FixedFrameBody& constrained, int b, std::
                std::vector<int>& undetermined) {
   Eigen::MatrixXd gradient;
   constrained.rows(constrained.start, &gradient);
-  const std::vector<Eigen::Index> kept = independent_rows(gradient);
+  const std::vector<Eigen::Index> kept = math::independent_rows(gradient);
   if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
   check_left_out(plan, constrained, b, kept);
   std::vector<int> joints;
-  for (const Eigen::Index row : undetermined_rows(gradient, kept))
+  for (const Eigen::Index row : math::undetermined_rows(gradient, kept))
     if (const int joint = hold_of(constrained, row).joint; joints.empty() || joints.back() != joint)
       joints.push_back(joint);
   refuse_undetermined(plan.scene, joints);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "connections.h"
+#include "floe/math/independent_rows.h"
 #include "floe/math/rotation.h"
-#include "independent_rows.h"
 
 namespace floe::assembly {
 
@@ -177,11 +177,11 @@ std::vector<std::vector<int>> SpatialRows::independent(std::string& notes, std::
   if (entries_.empty()) return all;
   MatrixXd gradient;
   values(VectorXd::Map(start_.data(), static_cast<Index>(start_.size())), 0, &gradient);
-  const std::vector<Index> kept = independent_rows(gradient, 1e-3);
+  const std::vector<Index> kept = math::independent_rows(gradient, 1e-3);
   if (static_cast<Index>(kept.size()) < gradient.rows()) {
     check_left_out(kept);
     std::vector<int> joints;
-    for (const Index row : undetermined_rows(gradient, kept))
+    for (const Index row : math::undetermined_rows(gradient, kept))
       if (const int joint = entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
     refuse_undetermined(plan_.scene, joints);
     undetermined = std::move(joints);

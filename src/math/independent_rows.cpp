@@ -1,9 +1,9 @@
-#include "independent_rows.h"
+#include "floe/math/independent_rows.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 
-namespace floe::assembly {
+namespace floe::math {
 
 std::vector<Eigen::Index> independent_rows(const Eigen::MatrixXd& G, double least) {
   std::vector<Eigen::Index> kept;
@@ -33,4 +33,4 @@ std::vector<Eigen::Index> undetermined_rows(const Eigen::MatrixXd& G, const std:
   return rows;
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::math

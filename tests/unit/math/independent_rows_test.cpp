@@ -1,11 +1,11 @@
-#include "../../../src/assembly/independent_rows.h"
+#include "floe/math/independent_rows.h"
 
 #include <catch2/catch.hpp>
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using floe::assembly::independent_rows;
-using floe::assembly::undetermined_rows;
+using floe::math::independent_rows;
+using floe::math::undetermined_rows;
 using Rows = std::vector<Index>;
 
 TEST_CASE("rows that depend on others, and multipliers that are not determined for that") {
