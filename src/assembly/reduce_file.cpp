@@ -106,7 +106,7 @@ std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody&
   std::vector<output::ReducedPlace> places;
   for (const auto& [name, at] : nodes)
     if (!at.empty())
-      places.push_back({name, reduction::place_map(body.structure, basis, place_weights(body.structure.mesh, at))});
+      places.push_back({name, reduction::place_map(body.structure, basis, place_weights(body.structure, at))});
   return places;
 }
 

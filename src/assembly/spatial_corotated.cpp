@@ -24,8 +24,12 @@ namespace {
 /// A node may move a place by its rotation alone: in the middle of an edge under an odd load.
 bool has_weight(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
 
-/// a of an averaging weight's arm, which maps theta to theta x a in the plane of a shell.
-Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
+/// a of an averaging weight's arm, theta x a: of its skew part, which rotates with the scene; in an edge of a shell the
+/// mean of what belongs to deflections (1) and to displacements in the plane (1.5).
+Vector3d arm_of(const AveragingWeight& weight) {
+  const Eigen::Matrix3d twice = weight.arm.transpose() - weight.arm;
+  return Vector3d(twice(2, 1), twice(0, 2), twice(1, 0)) / 2;
+}
 
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
   return std::all_of(place.averaging_weights.begin(), place.averaging_weights.end(),

@@ -108,7 +108,7 @@ void NasBuild::refuse_distant(const NasMean& mean) {
   constexpr double near = 1e-6;  // of the size of the place, and of coordinates, which are rounded
   if (apart <= near * (size + centre.norm())) return;
   faults_.add(mean.where, fmt::format("RBE3 {}: reference grid {} is {:.3g} away from the mean of its grids, ({:.6g}, "
-                                      "{:.6g}, {:.6g}); expected a grid there, where the place of the grids is; to "
+                                      "{:.6g}, {:.6g}); expected a grid there; to "
                                       "leave the card out: file: {{ignore: [RBE3]}}",
                                       mean.id, mean.reference, apart, centre.x(), centre.y(), centre.z()));
 }

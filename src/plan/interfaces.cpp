@@ -90,7 +90,7 @@ void find_interfaces(Plan& plan) {
     const PlannedBody& body = plan.bodies[first.body];
     const std::vector<Anchor> one = nodes_of(body, first), other = nodes_of(plan.bodies[second.body], second);
     VectorXd weights(static_cast<Index>(one.size()));
-    const std::vector<reduction::WeightedNode> means = place_weights(body.structure.mesh, first.nodes);
+    const std::vector<reduction::WeightedNode> means = place_weights(body.structure, first.nodes);
     for (std::size_t i = 0; i < one.size(); ++i) {
       found.pairs.push_back({one[i], other[i]});
       weights[static_cast<Index>(i)] = means[i].weight;

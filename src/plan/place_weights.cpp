@@ -1,6 +1,5 @@
 #include "floe/plan/place_weights.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -184,61 +183,10 @@ Weights edge_weights(const fem::Mesh& mesh, const Set& set, const std::vector<do
   return weights;
 }
 
-/// Mean of n n' over the shells that have so many corners at least in the place, by their areas: of flat ones n n';
-/// zero where there are none. Collective.
-Eigen::Matrix3d mean_normals(const fem::Mesh& mesh, const Set& set, int shared) {
-  Eigen::Matrix<double, 3, 4> sums = Eigen::Matrix<double, 3, 4>::Zero();
-  for (const fem::Mesh::Cell& cell : mesh.cells) {
-    if (!is_shell(cell)) continue;
-    const auto corners = cell.corners();
-    if (std::count_if(corners.begin(), corners.end(), [&](int corner) { return set.of(corner) >= 0; }) < shared)
-      continue;
-    const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return mesh.positions[corners[i]]; };
-    const Eigen::Vector3d n = corners.size() == 4 ? Eigen::Vector3d((at(2) - at(0)).cross(at(3) - at(1)))
-                                                  : Eigen::Vector3d((at(1) - at(0)).cross(at(2) - at(0)));
-    if (!(n.norm() > 0)) continue;
-    sums.leftCols<3>() += n * n.transpose() / n.norm();
-    sums(0, 3) += n.norm();
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return sums(0, 3) > 0 ? Eigen::Matrix3d(sums.leftCols<3>() / sums(0, 3)) : Eigen::Matrix3d::Zero();
-}
-
-/// The rotation of a place of shells of one normal n about it by displacements, for the drilling rotations of nodes
-/// follow their elements softly. With r = x - x_mean, r_n = n.r, t = n x r, J = sum w t.t:
-///
-///   n.theta = sum w t.u / J + sum w r_n r.(1 - n n') theta / J
-///
-/// Exact for every rigid motion. Collective.
-void turn_by_displacements(const fem::Mesh& mesh, const Set& set, Weights& weights) {
-  constexpr double flat = 0.95;
-  Eigen::Matrix3d mean_of_normals = mean_normals(mesh, set, 2);
-  if (mean_of_normals.isZero(0)) mean_of_normals = mean_normals(mesh, set, 1);  // nodes apart from each other
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> normals(mean_of_normals);
-  if (!(normals.eigenvalues()[2] > flat)) return;
-  const Eigen::Vector3d n = normals.eigenvectors().col(2);
-  Eigen::Matrix3Xd r = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(weights.size()));
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    if (const PetscInt local = weights[i].node - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
-      r.col(static_cast<Eigen::Index>(i)) = mesh.positions[local];
-  MPI_Allreduce(MPI_IN_PLACE, r.data(), static_cast<int>(r.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < weights.size(); ++i) mean += weights[i].weight * r.col(static_cast<Eigen::Index>(i));
-  r.colwise() -= mean;
-  double J = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    J += weights[i].weight * n.cross(r.col(static_cast<Eigen::Index>(i))).squaredNorm();
-  if (!(J > 0)) return;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    const Eigen::Vector3d x = r.col(static_cast<Eigen::Index>(i)), in_plane = x - n.dot(x) * n;
-    weights[i].turn = weights[i].weight / J * n * n.cross(x).transpose();
-    weights[i].twist = weights[i].weight * n * (n.dot(x) / J * in_plane - n).transpose();
-  }
-}
-
 }  // namespace
 
-Weights place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, PlaceMeasure* measure) {
+Weights place_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes, PlaceMeasure* measure) {
+  const fem::Mesh& mesh = structure.mesh;
   Weights weights(nodes.size(), {0, 1});
   PlaceMeasure found_measure;
   if (nodes.size() > 1) {
@@ -258,7 +206,7 @@ Weights place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
     weights[i].weight /= sum;
     weights[i].arm /= sum;
   }
-  if (weights.size() > 1 && mesh.dimension == 3) turn_by_displacements(mesh, Set(mesh, nodes), weights);
+  set_rotation(structure, weights);
   return weights;
 }
 

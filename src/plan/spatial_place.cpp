@@ -114,7 +114,7 @@ void refuse_measure(const Load& load, const PlaceMeasure& measure) {
 std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& structure, const Anchor& place,
                                   const MeshAxes& axes) {
   PlaceMeasure measure;
-  place_weights(structure.mesh, place.nodes, &measure);
+  place_weights(structure, place.nodes, &measure);
   refuse_measure(load, measure);
   if (!load.shape) return {{place, measure.size}};
   const std::vector<Eigen::Vector3d> x = positions_of(structure.mesh, place.nodes);
@@ -145,6 +145,7 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
       part.at.nodes.push_back(weights[i].node);
       part.at.x += own.back().weight * x[i];
     }
+    set_rotation(structure, own);
     part.at.body = place.body;
     part.at.averaging_weights = averaging_weights(structure.mesh, own);
     part.at.node = part.at.averaging_weights.front().node;
@@ -206,7 +207,7 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
     found.nodes = set->second;
   }
   const fem::Mesh& m = structure.mesh;
-  const std::vector<reduction::WeightedNode> weights = place_weights(m, found.nodes);
+  const std::vector<reduction::WeightedNode> weights = place_weights(structure, found.nodes);
   found.averaging_weights = averaging_weights(m, weights);
   found.node = found.averaging_weights.front().node;
   found.line = on_hinge_line(m, found);

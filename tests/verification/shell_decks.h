@@ -12,14 +12,16 @@ inline std::string node_line(std::size_t label, const Eigen::Vector3d& x) {
 }
 
 /// A deck of n x m shells on the image of the unit square, triangles in pairs, with its edges as node sets.
-/// @param type  S3, S4, S6 or S8R
+/// @param type    S3, S4, S6 or S8R
+/// @param closed  the last nodes across are the first ones: a tube
 inline std::string shells(const std::string& type, int n, int m, double thickness, const std::string& material,
-                          const Surface& at) {
+                          const Surface& at, bool closed = false) {
   const bool triangles = type == "S3" || type == "S6", middle_nodes = type == "S6" || type == "S8R";
   const int s = middle_nodes ? 2 : 1;
   std::string nodes = "*NODE\n", elements = fmt::format("*ELEMENT, TYPE={}, ELSET=skin\n", type), sets[4];
   std::map<std::pair<int, int>, std::size_t> labels;
   const auto node = [&](int i, int j) {
+    if (closed) j %= s * m;
     const auto [found, made] = labels.try_emplace({i, j}, labels.size() + 1);
     if (made) nodes += node_line(found->second, at(double(i) / (s * n), double(j) / (s * m)));
     return found->second;

@@ -22,16 +22,27 @@ struct PlaceMeasure {
 ///           membrane). Interior edges of elements that belong to the place as a whole do not count
 ///   points  else: equal weights
 ///
-/// The place rotates by sum w_i theta_i; of shells of one normal n about n by its displacements: n.theta =
-/// sum w_i (n x r_i).u_i / J, J = sum w_i |n x r_i|^2, r from the mean, with a term where nodes are not in one plane.
-///
 /// Hence sum w_i x_i is the centroid of the edge or area however its elements are graded, and even tension is exact.
+///
+/// Rotations are set by set_rotation().
 ///
 /// @param nodes    global, without repetition, the same on all ranks
 /// @param measure  receives what was found, if it is asked for
 /// @return       in their order, the same on all ranks. Collective. Source: Felippa 2003 (alpha = 3/2).
-std::vector<reduction::WeightedNode> place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+std::vector<reduction::WeightedNode> place_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes,
                                                    PlaceMeasure* measure = nullptr);
+
+/// How the place rotates, `turn` and `twist`: without shells by sum w_i theta_i; with shells as the rigid motion that
+/// is nearest to their nodes,
+///
+///   J theta = sum w_i (r_i x u_i + B_i theta_i),   J = sum w_i (r_i^2 1 - r_i r_i' + B_i),   r from the mean,
+///
+/// B_i = h^2/12 (1 - n n'), the mean over the shells at the node of thickness h and normal n: rotations that bend them
+/// count as displacements at the radius of inertia of the section; drilling rotations, which follow the shells by a
+/// small stiffness only, do not count. Along a straight edge it rotates by bending rotations, else by displacements.
+/// Exact for rigid motions. Collective.
+/// @param weights  their sum is 1
+void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights);
 
 /// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
 /// length or area, int N_i s. Not normalised; of either sign. Collective.

@@ -12,23 +12,25 @@ namespace {
 
 /// 4 by 2 elements of 0.25 x 0.5 and their nodes by number, i along, j across.
 struct Grid {
-  mesh::RawMesh raw;
-  fem::Mesh mesh;
-  explicit Grid(generate::ShellCells cells) {
+  fem::Structure structure;
+  explicit Grid(generate::ShellCells cells)
+      : structure(mesh_of(cells), {fem::shell_section({{fem::isotropic(7e10, 0.3, 2700), 0.01}})},
+                  fem::MembraneStrain::averaged) {}
+  static fem::Mesh mesh_of(generate::ShellCells cells) {
     generate::Plate plate;
     plate.a = Eigen::Vector3d(1, 0, 0), plate.b = Eigen::Vector3d(0, 1, 0), plate.na = 4, plate.nb = 2;
     plate.cells = cells;
-    raw = generate::plate(PETSC_COMM_WORLD, plate);
-    mesh = fem::mesh_of(raw, mesh::partition(raw));
+    const mesh::RawMesh raw = generate::plate(PETSC_COMM_WORLD, plate);
+    return fem::mesh_of(raw, mesh::partition(raw));
   }
   /// Weights of nodes by their places; the sum of x by weight has to be `centre`.
   std::vector<double> weights(const std::vector<std::array<double, 2>>& points, const Eigen::Vector3d& centre) const {
     std::vector<PetscInt> nodes;
-    for (const auto& [x, y] : points) nodes.push_back(fem::nearest_node(mesh, Eigen::Vector3d(x, y, 0)).node);
+    for (const auto& [x, y] : points) nodes.push_back(fem::nearest_node(structure.mesh, Eigen::Vector3d(x, y, 0)).node);
     std::vector<double> found;
     Eigen::Vector3d sum = -centre;
     Eigen::Matrix3d arms = Eigen::Matrix3d::Zero();
-    for (const auto& [node, weight, arm, turn, twist] : plan::place_weights(mesh, nodes)) {
+    for (const auto& [node, weight, arm, turn, twist] : plan::place_weights(structure, nodes)) {
       const auto& [x, y] = points[found.size()];
       sum += weight * Eigen::Vector3d(x, y, 0);
       arms += arm;
@@ -71,20 +73,20 @@ TEST_CASE("weights of places: edges by lengths, areas by areas, points alike") {
   }
 }
 
-// A rigid rotation rotates the place by itself, where nodes are not in one plane, too; drilling rotations of nodes by
-// themselves do not rotate it.
-TEST_CASE("weights of places: edges of flat and slightly curved shells rotate about their normal by displacements") {
-  const double camber = GENERATE(0., 0.05);
+// A rigid rotation rotates the place by itself; drilling rotations of nodes by themselves do not rotate it, of curved
+// shells by what of them is bending at the mean normal.
+TEST_CASE("weights of places: edges of flat and curved shells rotate as the nearest rigid motion") {
+  const double camber = GENERATE(0., 0.05, 1.);
   Grid grid(generate::ShellCells::quadrilaterals);
-  for (Eigen::Vector3d& x : grid.mesh.positions) x.z() = camber * x.y() * x.y();
+  for (Eigen::Vector3d& x : grid.structure.mesh.positions) x.z() = camber * x.y() * x.y();
   const bool apart = GENERATE(false, true);  // nodes of one edge, or none of one element
   std::vector<PetscInt> nodes;
   std::vector<Eigen::Vector3d> places;
   for (const double y : {0., 0.5, 1.}) {
     places.emplace_back(apart && y != 0.5 ? 0 : 1, y, camber * y * y);
-    nodes.push_back(fem::nearest_node(grid.mesh, places.back()).node);
+    nodes.push_back(fem::nearest_node(grid.structure.mesh, places.back()).node);
   }
-  const auto weights = plan::place_weights(grid.mesh, nodes);
+  const auto weights = plan::place_weights(grid.structure, nodes);
   const auto rotation = [&](auto&& u, auto&& theta) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < weights.size(); ++i)
@@ -100,5 +102,6 @@ TEST_CASE("weights of places: edges of flat and slightly curved shells rotate ab
   }
   const auto none = [](const Eigen::Vector3d&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
   const auto drilling = [](const Eigen::Vector3d&) { return Eigen::Vector3d(Eigen::Vector3d::UnitZ()); };
-  if (camber == 0) CHECK(rotation(none, drilling).norm() < 1e-14);
+  CHECK(rotation(none, drilling).norm() <
+        (camber == 0 ? 1e-14 : 0.02));  // h^2 / 12 over the inertia of the nodes; their mean: 1
 }

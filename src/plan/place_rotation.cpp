@@ -1,0 +1,84 @@
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "floe/fem/pressure.h"
+#include "floe/math/rotation.h"
+#include "floe/plan/place_weights.h"
+
+namespace floe::plan {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of a node: where it is, and of the shells there sums by their areas.
+struct NodeOfShells {
+  double x[3] = {0, 0, 0};
+  double bent[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< 1 - n n'
+  double area = 0, stiff = 0;                    ///< stiff: of bending over membrane, h^2 / 12 [m2]
+
+  Vector3d position() const { return Vector3d::Map(x); }
+  /// l^2 times the directions of rotations that bend shells.
+  Matrix3d rotary() const { return area > 0 ? Matrix3d(stiff / (area * area) * Matrix3d::Map(bent)) : Matrix3d::Zero(); }
+};
+
+void add_shell(const fem::Structure& structure, const fem::Mesh::Cell& cell, NodeOfShells& node) {
+  const auto corners = cell.corners();
+  const auto at = [&](std::size_t i) -> const Vector3d& { return structure.mesh.positions[corners[i]]; };
+  const Vector3d n = corners.size() == 4 ? Vector3d((at(2) - at(0)).cross(at(3) - at(1)))
+                                         : Vector3d((at(1) - at(0)).cross(at(2) - at(0)));
+  const auto* section = std::get_if<fem::ShellSection>(&structure.sections[cell.part]);
+  if (!section || !(n.norm() > 0)) return;
+  Matrix3d::Map(node.bent) += n.norm() * Matrix3d::Identity() - n * n.transpose() / n.norm();
+  node.area += n.norm();
+  node.stiff += n.norm() * section->bending.trace() / section->A.trace();
+}
+
+/// On every rank. Collective.
+std::vector<NodeOfShells> nodes_of_shells(const fem::Structure& structure,
+                                          const std::vector<reduction::WeightedNode>& weights) {
+  const fem::Mesh& mesh = structure.mesh;
+  std::vector<std::pair<PetscInt, std::size_t>> index;
+  for (std::size_t i = 0; i < weights.size(); ++i) index.emplace_back(weights[i].node, i);
+  std::sort(index.begin(), index.end());
+  const auto place_of = [&](int local) -> std::ptrdiff_t {
+    const auto at = std::lower_bound(index.begin(), index.end(), std::pair(mesh.global_node(local), std::size_t(0)));
+    return at != index.end() && at->first == mesh.global_node(local) ? std::ptrdiff_t(at->second) : -1;
+  };
+  std::vector<NodeOfShells> all(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (const PetscInt local = weights[i].node - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
+      Vector3d::Map(all[i].x) = mesh.positions[local];
+  for (const fem::Mesh::Cell& cell : mesh.cells)
+    if (fem::is_shell(cell))
+      for (const int node : cell.places())
+        if (const std::ptrdiff_t i = place_of(node); i >= 0) add_shell(structure, cell, all[static_cast<std::size_t>(i)]);
+  constexpr int doubles = sizeof(NodeOfShells) / sizeof(double);
+  MPI_Allreduce(MPI_IN_PLACE, all.front().x, doubles * static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return all;
+}
+
+}  // namespace
+
+void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights) {
+  for (reduction::WeightedNode& at : weights) at.turn.setZero(), at.twist.setZero();
+  if (weights.size() < 2 || structure.mesh.dimension != 3) return;
+  const std::vector<NodeOfShells> nodes = nodes_of_shells(structure, weights);
+  if (std::none_of(nodes.begin(), nodes.end(), [](const NodeOfShells& node) { return node.area > 0; })) return;
+  Vector3d centre = Vector3d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) centre += weights[i].weight * nodes[i].position();
+  Matrix3d inertia = Matrix3d::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Matrix3d arm = math::skew(nodes[i].position() - centre);
+    inertia += weights[i].weight * (nodes[i].rotary() - arm * arm);
+  }
+  const Eigen::FullPivLU<Matrix3d> factor(inertia);
+  if (!factor.isInvertible()) return;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double weight = weights[i].weight;
+    weights[i].turn = factor.solve(Matrix3d(weight * math::skew(nodes[i].position() - centre)));
+    weights[i].twist = factor.solve(Matrix3d(weight * nodes[i].rotary())) - weight * Matrix3d::Identity();
+  }
+}
+
+}  // namespace floe::plan
