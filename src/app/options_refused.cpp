@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <cctype>
@@ -85,6 +86,16 @@ bool ends_in(std::string_view name, std::string_view tail) {
   return name == tail || (name.ends_with(tail) && name[name.size() - tail.size() - 1] == '_');
 }
 
+/// Whether rank 0, which opens windows, has a display. The first call is collective.
+bool has_display() {
+  static const bool found = [] {
+    int set = std::getenv("DISPLAY") ? 1 : 0;
+    MPI_Bcast(&set, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+    return set != 0;
+  }();
+  return found;
+}
+
 /// Viewers that need what is not there: of a window a display, of a socket or SAWs somebody at its other end.
 std::string refused_viewer(const std::string& name, const std::string& value) {
   const bool views = name.find("_view") != std::string::npos || name.find("_monitor") != std::string::npos ||
@@ -96,7 +107,7 @@ std::string refused_viewer(const std::string& name, const std::string& value) {
   const bool draws = value.starts_with("draw") || std::any_of(windows.begin(), windows.end(), [&](std::string_view w) {
                        return name.find(w) != std::string::npos;
                      });
-  if (!draws || std::getenv("DISPLAY")) return "";
+  if (!draws || has_display()) return "";
   return fmt::format("option -{}: needs a window, and there is no display (DISPLAY is not set)", name);
 }
 
