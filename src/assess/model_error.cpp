@@ -176,7 +176,7 @@ class ModelError {
       const std::string why =
           petsc::failed_together(motion_.comm, [&] { second = better(other, exact.reached, false); });
       if (!why.empty()) {  // the first one stands
-        part_.notes.push_back(words(other) + ": " + first_line(why));
+        part_.notes.push_back("not extrapolated from " + words(other) + ": " + first_line(why));
         return;
       }
       if (!resolved(second->event_error) || second->reached < 0.98 * exact.reached) {
