@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "drilling_notes.h"
 #include "floe/math/rotation.h"
 #include "floe/plan/ground_axes.h"
 #include "floe/plan/prepare_spatial_joints.h"
@@ -254,6 +255,7 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
     }
     plan.loads.push_back(where);
   }
+  note_drilling(plan);
   for (const Probe& probe : scene.probes) {
     std::array<Anchor, 2> places;
     places[0] = place(probe.at);
