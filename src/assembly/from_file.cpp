@@ -93,12 +93,8 @@ body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anc
   }
   const fem::Structure& structure = plan.bodies[place.body].structure;
   if (place.nodes.empty()) return reduction::place_map(structure, *reduced.basis, place.node);
-  if (place.factors.empty())
-    return reduction::place_map(structure, *reduced.basis,
-                                place.weights ? *place.weights : place_weights(structure, place.nodes));
-  std::vector<reduction::WeightedNode> nodes;
-  for (std::size_t i = 0; i < place.nodes.size(); ++i) nodes.push_back({place.nodes[i], place.factors[i]});
-  return reduction::place_map(structure, *reduced.basis, nodes);
+  return reduction::place_map(structure, *reduced.basis,
+                              place.weights ? *place.weights : place_weights(structure, place.nodes));
 }
 
 }  // namespace floe::assembly

@@ -25,8 +25,7 @@ MovingAxes axes_of(const dynamics::SpatialMarker& at) { return {at.coordinates[0
 const SpatialAssembly::MeanAxes* SpatialAssembly::find_mean(const Anchor& place) const {
   const auto found = std::find_if(means_.begin(), means_.end(), [&](const MeanAxes& mean) {
     const Anchor& other = mean.place;
-    return other.body == place.body && other.nodes == place.nodes && other.factors == place.factors &&
-           other.weights == place.weights;
+    return other.body == place.body && other.nodes == place.nodes && other.weights == place.weights;
   });
   return found == means_.end() ? nullptr : &*found;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "floe/reduction/place_set.h"
 #include "spatial_assembly.h"
 
 // Joints between the pieces of a split body (plan::Interface): at full order every pair of nodes is fixed, in reduced
@@ -99,6 +100,13 @@ JointMultipliers SpatialAssembly::multipliers_of(int j) const {
   for (Index node = 0; node < std::ssize(cut.pairs); ++node)
     for (Index vector = 0; vector < cut.factors.cols(); ++vector)
       own.at_nodes.block<6, 6>(6 * node, 6 * vector).diagonal().setConstant(cut.factors(node, vector));
+  const Eigen::Matrix3d W = plan_.bodies[plan_.joints[j][0].body].attitude.transpose() * plan_.joint_axes[j],
+                        moments = (Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished() * W.transpose();
+  for (Index node = 0; node < std::ssize(cut.pairs); ++node) {
+    const reduction::WeightedNode& at = (*cut.means[0])[static_cast<std::size_t>(node)];
+    own.at_nodes.block<3, 3>(6 * node, 3) += W.transpose() * at.turn.transpose() * moments.transpose();
+    own.at_nodes.block<3, 3>(6 * node + 3, 3) += moments * at.twist.transpose() * moments.transpose();
+  }
   return own;
 }
 

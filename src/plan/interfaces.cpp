@@ -18,7 +18,7 @@ std::vector<Anchor> nodes_of(const PlannedBody& body, const Anchor& place) {
   std::vector<Anchor> all;
   const Place name;
   for (PetscInt node : place.nodes) {
-    const std::map<std::string, std::vector<PetscInt>> one{{name.name, {node}}};
+    const mesh::NodeSets one{{name.name, {{node}}}};
     all.push_back(spatial_place(body.spec, body.structure, one, name, {body.origin, body.axes}));
     all.back().body = place.body;
   }
@@ -58,13 +58,20 @@ MatrixXd factors(const std::vector<std::array<Anchor, 2>>& pairs, const VectorXd
 }  // namespace
 
 Anchor Interface::sum(int side, Index vector) const {
+  Weights weights = means[static_cast<std::size_t>(side)];
+  if (vector > 0) {
+    std::vector<reduction::WeightedNode> own;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      own.push_back({pairs[i][side].nodes.front(), factors(static_cast<Index>(i), vector)});
+    weights = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(own));
+  }
   Anchor sum = pairs.front()[side];
   sum.nodes.clear(), sum.averaging_weights.clear(), sum.x.setZero(), sum.line = false;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double factor = factors(static_cast<Index>(i), vector);
+    const auto& [number, factor, arm, turn, twist] = (*weights)[i];
+    const Eigen::Matrix3d rotation = factor * Eigen::Matrix3d::Identity() + twist;
     const Anchor& node = pairs[i][side];
-    sum.nodes.push_back(node.nodes.front());
-    sum.factors.push_back(factor);
+    sum.nodes.push_back(number);
     sum.x += factor * node.x;
     for (const AveragingWeight& own : node.averaging_weights) {
       auto at = std::find_if(sum.averaging_weights.begin(), sum.averaging_weights.end(),
@@ -73,11 +80,12 @@ Anchor Interface::sum(int side, Index vector) const {
         sum.averaging_weights.push_back({own.node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
         at = sum.averaging_weights.end() - 1;
       }
-      at->share += factor * own.share, at->arm += factor * own.arm;
-      at->rotation += factor * own.rotation, at->lead += factor * own.lead;
-      at->turn += factor * own.turn;
+      at->share += factor * own.share, at->arm += factor * own.arm, at->lead += factor * own.lead;
+      at->rotation += rotation * own.rotation + turn * own.arm;
+      at->turn += rotation * own.turn + turn * own.share;
     }
   }
+  sum.weights = std::move(weights);
   sum.node = sum.averaging_weights.front().node;
   return sum;
 }
@@ -89,13 +97,19 @@ void find_interfaces(Plan& plan) {
     auto& [first, second] = plan.joints[j];
     const PlannedBody& body = plan.bodies[first.body];
     const std::vector<Anchor> one = nodes_of(body, first), other = nodes_of(plan.bodies[second.body], second);
+    std::array<std::vector<reduction::WeightedNode>, 2> means;
     VectorXd weights(static_cast<Index>(one.size()));
-    const std::vector<reduction::WeightedNode> means = place_weights(body.structure, first.nodes);
-    for (std::size_t i = 0; i < one.size(); ++i) {
+    for (const reduction::WeightedNode& at : place_weights(body.structure, first.nodes)) {
+      const std::size_t i = found.pairs.size();
       found.pairs.push_back({one[i], other[i]});
-      weights[static_cast<Index>(i)] = means[i].weight;
+      weights[static_cast<Index>(i)] = at.weight;
+      for (const int side : {0, 1}) means[side].push_back({found.pairs[i][side].nodes.front(), at.weight});
     }
     found.factors = factors(found.pairs, weights, body.spec.reduction.interface_degree);
+    for (const int side : {0, 1}) {
+      if (found.factors.cols() == 1) set_rotation(plan.bodies[plan.joints[j][side].body].structure, means[side]);
+      found.means[side] = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(means[side]));
+    }
     first = found.sum(0, 0), second = found.sum(1, 0);
   }
 }

@@ -41,10 +41,10 @@ struct Anchor {
   /// In space: what moves the mean of `nodes`, those that follow no other node and the independent nodes of those that
   /// do; `node` is the first of them.
   std::vector<AveragingWeight> averaging_weights = {};
-  /// In space, of a load with a shape: weights of `nodes` in the place; null: those of place_weights.
+  /// In space: weights of `nodes` in the place, of a load with a shape, a cut, or given by the mesh file; null: those
+  /// of place_weights.
   std::shared_ptr<const std::vector<reduction::WeightedNode>> weights = {};
   bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
-  std::vector<double> factors = {};                ///< in space: of `nodes`; none: the weights of their mean
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
@@ -61,25 +61,25 @@ struct PlannedBody {
   Body spec;
   fem::Structure structure;  ///< positions in the axes of the floating frame; of a body from a file: none
   fem::ReferenceFrame frame;
-  Eigen::Vector2d frame_origin;                              ///< in mesh axes
-  double frame_angle = 0;                                    ///< of the frame in mesh axes
-  std::array<Anchor, 2> frame_places;                        ///< pinned: a, b; clamped: a, a; mean-axis: none
-  Eigen::Vector3d pose;                                      ///< of the frame at the start, world: (R_x, R_y, theta)
-  Eigen::Vector3d velocity;                                  ///< likewise
-  petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none
-  fem::Conditions constrained;                               ///< dofs that joints to the ground hold
-  std::vector<Anchor> interface = {};                        ///< that the modes hold (Craig-Bampton)
-  std::map<std::string, std::vector<PetscInt>> places = {};  ///< in space: global nodes by name
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
-  std::vector<std::string> parts = {};                       ///< in space: names
-  std::vector<fem::StressPoints> points = {};                ///< of each part
-  std::vector<std::string> notices = {};                     ///< in space: of the mesh
-  std::string strains = {};                                  ///< in space: which, and of a default why
-  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();    ///< in space: axes of the frame at the start, world
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< in space: its origin, R, at the start
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< in space: R. at the start, world
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();            ///< in space: angular velocity at the start, frame axes
+  Eigen::Vector2d frame_origin;                            ///< in mesh axes
+  double frame_angle = 0;                                  ///< of the frame in mesh axes
+  std::array<Anchor, 2> frame_places;                      ///< pinned: a, b; clamped: a, a; mean-axis: none
+  Eigen::Vector3d pose;                                    ///< of the frame at the start, world: (R_x, R_y, theta)
+  Eigen::Vector3d velocity;                                ///< likewise
+  petsc::VecHandle deformation, deformation_rate;          ///< at the start, in the frame; null if none
+  fem::Conditions constrained;                             ///< dofs that joints to the ground hold
+  std::vector<Anchor> interface = {};                      ///< that the modes hold (Craig-Bampton)
+  mesh::NodeSets places = {};                              ///< in space: global nodes by name
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();        ///< in space: of the frame, in mesh axes
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< in space: of the frame, as columns in mesh axes
+  std::vector<std::string> parts = {};                     ///< in space: names
+  std::vector<fem::StressPoints> points = {};              ///< of each part
+  std::vector<std::string> notices = {};                   ///< in space: of the mesh
+  std::string strains = {};                                ///< in space: which, and of a default why
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();  ///< in space: axes of the frame at the start, world
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();         ///< in space: its origin, R, at the start
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();          ///< in space: R. at the start, world
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();          ///< in space: angular velocity at the start, frame axes
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
   /// and the ground clamps the body, dependent nodes.
   fem::Conditions clamp = {};
@@ -96,10 +96,14 @@ struct LoadPart {
 
 /// The pairs of nodes that a cut through a body has on both of its sides (edges: nodes), and the interface vectors by
 /// which reduced models couple them: displacements and rotations summed over the pairs with these factors. The first
-/// ones are the weights of the mean; further ones the weights times polynomials of the undeformed place.
+/// ones are the weights of the mean; further ones the weights times polynomials of the undeformed place. Where there
+/// are no further ones the mean rotates as the rigid motion nearest to the nodes (set_rotation), for nothing else holds
+/// shells about their normals.
 struct Interface {
+  using Weights = std::shared_ptr<const std::vector<reduction::WeightedNode>>;
   std::vector<std::array<Anchor, 2>> pairs;
-  Eigen::MatrixXd factors;  ///< pairs x vectors; columns but the first sum up to zero
+  Eigen::MatrixXd factors;       ///< pairs x vectors; columns but the first sum up to zero
+  std::array<Weights, 2> means;  ///< of the first vector on each side
   bool empty() const { return pairs.empty(); }
   /// Place `vector` of a side: the sum of its nodes' places.
   Anchor sum(int side, Eigen::Index vector) const;
