@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "shell_decks.h"
 #include "space_twin.h"
 
 // Places of several nodes of corotational bodies: joints, springs, follower loads and probes on the mean of an edge.
@@ -166,4 +167,33 @@ probes: {c: {at: p.p3}}
     const std::string shorter = fill(plate, {{"elements", elements}, {"step", "5e-4"}});
     CHECK(released.at("c.z", 0.2) == Approx(move(shorter + event, Formulation::cfr).at("c.z", 0.2)).epsilon(0.01));
   }
+}
+
+// Moments at the ends of a graded edge are those of its elements, in their axes.
+TEST_CASE("a force at a graded edge of corotational shells acts alike in every position of the scene") {
+  const Eigen::Vector3d force(2, 1, 0.1);
+  const auto motion = [&](const Eigen::Matrix3d& R) {
+    const Deck deck(shells("S4", 4, 3, 0.01, "*ELASTIC\n2e9, 0.3\n*DENSITY\n1000\n", [&](double u, double v) {
+      return Eigen::Vector3d(R * Eigen::Vector3d(u, 0.2 * v * v, 0));
+    }));
+    const Eigen::Vector3d f = R * force;
+    const History at =
+        rest(fill(R"yaml(
+bodies: {p: {mesh: {file: {path: $path}}}}
+joints: {a: {type: fixed, between: [ground, p.left]}}
+loads: {f: {type: force, at: p.right, force: [$fx, $fy, $fz]}}
+probes: {turn: {at: p.right, quantity: rotation}, d: {at: p.right, quantity: displacement}}
+)yaml",
+                  {{"path", deck.path()}, {"fx", number(f.x())}, {"fy", number(f.y())}, {"fz", number(f.z())}}),
+             Formulation::cfr);
+    Eigen::Matrix<double, 3, 2> found;
+    for (int i = 0; i < 3; ++i) {
+      found(i, 0) = at[std::string("d.") + "xyz"[i]].back();
+      found(i, 1) = at[std::string("turn.r") + "xyz"[i]].back();
+    }
+    return Eigen::Matrix<double, 3, 2>(R.transpose() * found);
+  };
+  const Eigen::Matrix<double, 3, 2> along = motion(Eigen::Matrix3d::Identity());
+  const Eigen::Matrix<double, 3, 2> rotated = motion(math::rotation(Eigen::Vector3d(0.9, 1.2, -1.4)));
+  for (int i = 0; i < 2; ++i) CHECK((rotated - along).col(i).norm() < 1e-7 * along.col(i).norm());
 }

@@ -319,6 +319,11 @@ probes: {end: {at: strip.right}, turn: {at: strip.right, quantity: rotation}}
     CHECK(force["turn.rz"].back() == Approx(10 / (2 * EI)).epsilon(tolerance));
     CHECK(moment["end.y"].back() == Approx(10 / (2 * EI)).epsilon(tolerance));
     CHECK(moment["turn.rz"].back() == Approx(10 / EI).epsilon(tolerance));
+    for (const char* shape : {"", ", shape: \"1\""}) {
+      const std::string per_length = "{type: moment, at: strip.right, per: length, moment: [0, 0, \"100*t\"]";
+      const History spread = rest(fill(text, {{"load", per_length + shape + "}"}}), formulation);
+      CHECK(spread["turn.rz"].back() == Approx(moment["turn.rz"].back()).epsilon(1e-6));
+    }
   }
 }
 
