@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/fixed_frame_body.h"
@@ -113,21 +112,6 @@ std::vector<int> joints_holding(const Plan& plan, int body) {
   return joints;
 }
 
-/// Of nodes, on all ranks. Collective.
-std::map<PetscInt, Eigen::Vector3d> positions_of(const fem::Mesh& mesh, const std::set<PetscInt>& nodes) {
-  std::vector<double> mine;
-  for (const PetscInt node : nodes)
-    if (const PetscInt local = node - mesh.first_node; local >= 0 && local < mesh.owned_nodes) {
-      const Eigen::Vector3d& x = mesh.positions[static_cast<std::size_t>(local)];
-      mine.insert(mine.end(), {static_cast<double>(node), x.x(), x.y(), x.z()});
-    }
-  const std::vector<double> all = petsc::of_all_ranks(mesh.comm, mine);
-  std::map<PetscInt, Eigen::Vector3d> found;
-  for (std::size_t i = 0; i < all.size(); i += 4)
-    found[static_cast<PetscInt>(all[i])] = Eigen::Vector3d(all[i + 1], all[i + 2], all[i + 3]);
-  return found;
-}
-
 /// Dofs that several joints hold count for each of them in equal parts. Collective.
 HeldDofs held_dofs(const Plan& plan, int j) {
   const Anchor& place = *constrained_place(plan, static_cast<std::size_t>(j));
@@ -135,18 +119,18 @@ HeldDofs held_dofs(const Plan& plan, int j) {
   for (const int other : joints_holding(plan, place.body))
     for (const PetscInt dof : dofs_held_by(plan, other)) ++uses[dof];
   const fem::Conditions dofs = dofs_held_by(plan, j);
-  std::set<PetscInt> nodes;
-  for (const PetscInt dof : dofs) nodes.insert(dof / 6);
-  const auto positions = positions_of(plan.bodies[place.body].structure.mesh, nodes);
+  std::vector<PetscInt> nodes;
+  for (const PetscInt dof : dofs) nodes.push_back(dof / 6);
+  const std::vector<Eigen::Vector3d> x = fem::positions_of(plan.bodies[place.body].structure.mesh, nodes);
   HeldDofs held;
-  for (const PetscInt dof : dofs) {
-    const Eigen::Vector3d e = Eigen::Vector3d::Unit(dof % 3);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Eigen::Vector3d e = Eigen::Vector3d::Unit(dofs[i] % 3);
     Wrench w = Wrench::Zero();
-    if (dof % 6 < 3)
-      w << e, (positions.at(dof / 6) - place.x).cross(e);
+    if (dofs[i] % 6 < 3)
+      w << e, (x[i] - place.x).cross(e);
     else
       w.tail<3>() = e;
-    held[dof] = w / uses.at(dof);
+    held[dofs[i]] = w / uses.at(dofs[i]);
   }
   return held;
 }

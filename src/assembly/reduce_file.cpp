@@ -84,11 +84,11 @@ output::ReducedFrame frame_of(const PlannedBody& body) {
 }
 
 std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody& body, const reduction::Basis& basis) {
-  std::map<std::string, std::vector<PetscInt>> nodes = body.places;
+  mesh::NodeSets sets = body.places;
   const auto add = [&](const Place& place, const Anchor& found) {
     if (found.body < 0) return;
-    nodes.emplace(name_in_file(place, body.structure.dimension()),
-                  found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes);
+    sets.emplace(name_in_file(place, body.structure.dimension()),
+                 mesh::NodeSet{found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes});
   };
   const Scene& scene = plan.scene;
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
@@ -100,13 +100,13 @@ std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody&
     for (const std::string& name : place_names(body.spec.mesh)) {
       const Point p = place_point(body.spec.mesh, {body.spec.name, name, {}, {}});
       const Eigen::Vector2d x = rotation_matrix(-body.frame_angle) * (Eigen::Vector2d(p[0], p[1]) - body.frame_origin);
-      nodes.emplace(name, std::vector{fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0}).node});
+      sets.emplace(name, mesh::NodeSet{{fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0}).node}});
     }
   }
   std::vector<output::ReducedPlace> places;
-  for (const auto& [name, at] : nodes)
-    if (!at.empty())
-      places.push_back({name, reduction::place_map(body.structure, basis, place_weights(body.structure, at))});
+  for (const auto& [name, set] : sets)
+    if (!set.nodes.empty())
+      places.push_back({name, reduction::place_map(body.structure, basis, weights_of(body.structure, set))});
   return places;
 }
 
@@ -147,9 +147,9 @@ std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
 output::ReducedShapes shapes_of(const PlannedBody& body, const reduction::Basis& basis) {
   const fem::Mesh& mesh = body.structure.mesh;
   output::ReducedShapes shapes = mesh_copy(body);
-  for (const auto& [name, nodes] : body.places) {
+  for (const auto& [name, set] : body.places) {
     std::vector<std::int64_t>& mine = shapes.sets[name];
-    for (PetscInt node : nodes)
+    for (const PetscInt node : set.nodes)
       if (node >= mesh.first_node && node < mesh.first_node + mesh.owned_nodes)
         mine.push_back(mesh.original_node(static_cast<int>(node - mesh.first_node)));
   }

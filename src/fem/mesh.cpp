@@ -118,6 +118,15 @@ Eigen::Matrix3d Mesh::Spin::own() const {
   return S;
 }
 
+std::vector<Eigen::Vector3d> positions_of(const Mesh& mesh, const std::vector<PetscInt>& nodes) {
+  std::vector<Eigen::Vector3d> all(nodes.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const PetscInt local = nodes[i] - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
+      all[i] = mesh.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return all;
+}
+
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
   struct Candidate {
     double distance = std::numeric_limits<double>::infinity();

@@ -77,6 +77,10 @@ void fill(Numbered& result, const FileMesh& file, const Translation& used, const
     auto& nodes = mesh.place_nodes.emplace_back();
     for (const long long label : place.labels)
       if (number(label) >= 0) nodes.push_back(number(label));
+    if (!place.weighted) continue;
+    auto& weights = mesh.place_weights[place.name];
+    for (std::size_t i = 0; i < place.labels.size(); ++i)
+      if (number(place.labels[i]) >= 0) weights.push_back({number(place.labels[i]), place.weights[i]});
   }
 }
 

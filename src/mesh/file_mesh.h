@@ -23,7 +23,9 @@ struct FileCell {
 struct FilePlace {
   std::string name;
   Where where;
-  std::vector<long long> labels;  // that this rank found
+  std::vector<long long> labels;     // that this rank found
+  bool weighted = false;             // same on all ranks
+  std::vector<double> weights = {};  // of the labels, if weighted
 };
 
 /// An element that is no cell.

@@ -247,7 +247,9 @@ class Halving {
     std::vector<char> on_boundary(whole_.positions.size(), 0);
     for (const auto& [nodes, at] : at_edge_)
       if (at.shells.size() == 1) on_boundary[nodes[0]] = on_boundary[nodes[1]] = 1;
-    for (std::vector<PetscInt>& nodes : fine_.place_nodes) {
+    for (std::size_t place = 0; place < fine_.places.size(); ++place) {
+      if (fine_.place_weights.contains(fine_.places[place])) continue;
+      std::vector<PetscInt>& nodes = fine_.place_nodes[place];
       std::vector<char> in(whole_.positions.size(), 0);
       for (const PetscInt node : nodes) in[node] = 1;
       const bool rim = std::all_of(nodes.begin(), nodes.end(), [&](PetscInt node) { return on_boundary[node] != 0; });

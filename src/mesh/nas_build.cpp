@@ -98,10 +98,15 @@ void NasBuild::refuse_distant(const NasMean& mean) {
   const NasGrid* reference = frames_.grid(mean.reference);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> points;
-  for (const long long node : mean.nodes)
-    if (const NasGrid* grid = frames_.grid(node)) points.push_back(frames_.position_of(*grid));
-  if (!reference || points.size() != mean.nodes.size()) return;  // faults elsewhere
-  for (const Eigen::Vector3d& x : points) centre += x / static_cast<double>(points.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < mean.nodes.size(); ++i) {
+    const NasGrid* grid = frames_.grid(mean.nodes[i]);
+    if (!grid) return;  // a fault elsewhere
+    points.push_back(frames_.position_of(*grid));
+    centre += mean.weights[i] * points.back(), sum += mean.weights[i];
+  }
+  if (!reference) return;
+  centre /= sum;
   double size = 0;
   for (const Eigen::Vector3d& x : points) size = std::max(size, (x - centre).norm());
   const double apart = (frames_.position_of(*reference) - centre).norm();
@@ -131,15 +136,18 @@ void NasBuild::add_means() {
     }
     refuse_distant(mean);
     names.push_back("RBE3_" + std::to_string(mean.id));
-    FilePlace& place = mean_places_.emplace_back(FilePlace{names.back(), mean.where, {}});
-    if (rank_ == 0) place.labels = mean.nodes;
+    FilePlace& place = mean_places_.emplace_back(FilePlace{names.back(), mean.where, {}, true});
+    std::map<long long, double> weights;
+    for (std::size_t i = 0; i < mean.nodes.size(); ++i) weights[mean.nodes[i]] += mean.weights[i];
+    if (rank_ == 0)
+      for (const auto& [node, weight] : weights) place.labels.push_back(node), place.weights.push_back(weight);
   }
   if (names.empty()) return;
-  notices.push_back(faults_.text_of(model_.means.front().where) + ": " +
-                    counted(static_cast<long long>(names.size()), "RBE3") +
-                    " without element at the reference grid: a place each of the grids whose mean it is, by lengths of "
-                    "edges or areas of shells between them (" +
-                    names.front() + (names.size() > 1 ? ", ...)" : ")"));
+  notices.push_back(
+      faults_.text_of(model_.means.front().where) + ": " + counted(static_cast<long long>(names.size()), "RBE3") +
+      " without element at the reference grid: a place each, the mean of its grids by the weights of the card (" +
+      names.front() + (names.size() > 1 ? ", ...)" : ")") +
+      "; joints there with edges: mean (edges: rigid makes the grids one rigid region)");
 }
 
 std::map<std::string, std::vector<std::pair<long long, Where>>> NasBuild::supports() const {
@@ -175,11 +183,11 @@ void NasBuild::add_places() {
         support.labels.push_back(grid);
     }
   }
-  mesh.places.insert(mesh.places.end(), mean_places_.begin(), mean_places_.end());
   for (auto& one : mesh.places) {
     std::sort(one.labels.begin(), one.labels.end());
     one.labels.erase(std::unique(one.labels.begin(), one.labels.end()), one.labels.end());
   }
+  mesh.places.insert(mesh.places.end(), mean_places_.begin(), mean_places_.end());
 }
 
 void NasBuild::report_unused() {

@@ -209,7 +209,7 @@ void read_rbe3(NasReader& r) {
   const auto& card = r.card.card;
   NasMean mean{r.card.integer(0, "the element's number"), r.card.integer(2, "the reference grid"), {}, r.where()};
   bool directions = false;  // the next number
-  std::optional<double> weight;
+  double weight = 1;
   for (std::size_t i = 4; i < card.fields.size(); ++i) {
     if (card.blank(i)) continue;
     const std::string word = upper(card.text(i));
@@ -218,14 +218,13 @@ void read_rbe3(NasReader& r) {
       directions = true;
       const double found = r.card.real(i, "a weight");
       if (r.card.good() && !(found > 0)) refuse_mean(r, i, "a weight greater than 0");
-      if (r.card.good() && found != weight.value_or(found))
-        refuse_mean(r, i, fmt::format("equal weights ({:g} before)", *weight));
       weight = found;
     } else if (directions) {
       directions = false;
       check_components(r, i);
     } else {
       mean.nodes.push_back(r.card.integer(i, "a weight with its directions, or a grid"));
+      mean.weights.push_back(weight);
     }
   }
   if (r.card.good() && mean.nodes.empty()) r.card.refuse_card("has no grids");

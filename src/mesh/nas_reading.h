@@ -138,6 +138,7 @@ struct NasMean {
   long long id, reference;
   std::vector<long long> nodes;
   Where where;
+  std::vector<double> weights = {};  // of the nodes
 };
 
 /// A card that is not read: how often, and where first.

@@ -25,11 +25,12 @@ RawMesh share_of_whole(const RawMesh& whole) {
   };
   copy(whole.positions, nodes, mesh.positions), copy(whole.node_labels, nodes, mesh.node_labels);
   copy(whole.cells, cells, mesh.cells), copy(whole.cell_labels, cells, mesh.cell_labels);
-  for (const std::vector<PetscInt>& all : whole.place_nodes) {
-    std::vector<PetscInt>& own = mesh.place_nodes.emplace_back();
-    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
-                 [&](PetscInt node) { return node >= nodes.first && node < nodes.first + nodes.count; });
-  }
+  const auto own = [&](PetscInt node) { return node >= nodes.first && node < nodes.first + nodes.count; };
+  for (const std::vector<PetscInt>& all : whole.place_nodes)
+    std::copy_if(all.begin(), all.end(), std::back_inserter(mesh.place_nodes.emplace_back()), own);
+  for (const auto& [name, all] : whole.place_weights)
+    std::copy_if(all.begin(), all.end(), std::back_inserter(mesh.place_weights[name]),
+                 [&](const NodeWeight& at) { return own(at.node); });
   return mesh;
 }
 

@@ -49,8 +49,7 @@ std::optional<Vector3d> line_of(const std::vector<Vector3d>& points) {
 }  // namespace
 
 std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
-                                         const std::map<std::string, std::vector<PetscInt>>& places,
-                                         std::vector<std::string>& notices) {
+                                         const mesh::NodeSets& places, std::vector<std::string>& notices) {
   std::vector<mesh::HingeLine> lines;
   std::vector<std::string> faults;
   const auto vector = [](const Point& p) { return Vector3d(p[0], p[1], p[2]); };
@@ -59,11 +58,11 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
     for (const Place* place : {&joint.first, &joint.second}) {
       if (body.rigid || place->body != body.name || joint.edges != Joint::Edges::line) continue;
       const auto found = places.find(place->name);
-      if (place->point || found == places.end() || found->second.size() < 2) continue;
-      const std::optional<Vector3d> line = line_of(positions(mesh, found->second));
+      if (place->point || found == places.end() || found->second.nodes.size() < 2) continue;
+      const std::optional<Vector3d> line = line_of(positions(mesh, found->second.nodes));
       if (line && (!joint.axis_given || (to_mesh * vector(joint.axis).normalized()).cross(*line).norm() < 1e-6)) {
         const Place& other = place == &joint.first ? joint.second : joint.first;
-        lines.push_back({found->second,
+        lines.push_back({found->second.nodes,
                          {line->x(), line->y(), line->z()},
                          joint.where.text(),
                          other.ground(),
@@ -102,13 +101,13 @@ void report_left_out(const Scene& scene, const std::vector<std::string>& left_ou
   if (!faults.empty()) throw InputError(faults);
 }
 
-std::vector<PetscInt> constrained_elsewhere(const Scene& scene, const Body& body,
-                                            const std::map<std::string, std::vector<PetscInt>>& places) {
+std::vector<PetscInt> constrained_elsewhere(const Scene& scene, const Body& body, const mesh::NodeSets& places) {
   using Kind = Joint::Kind;
   std::vector<PetscInt> nodes;
   const auto add = [&](const Place& place) {
     const auto found = places.find(place.name);
-    if (!place.point && found != places.end()) nodes.insert(nodes.end(), found->second.begin(), found->second.end());
+    if (!place.point && found != places.end())
+      nodes.insert(nodes.end(), found->second.nodes.begin(), found->second.nodes.end());
   };
   for (const Place* place : {&body.frame.from, &body.frame.to, &body.frame.at})
     if (body.frame.given) add(*place);

@@ -22,8 +22,7 @@ using namespace scene;
 /// @param notices  receives straight edges whose joint has another axis
 /// @throws InputError  told to be a line, and is none. Collective.
 std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
-                                         const std::map<std::string, std::vector<PetscInt>>& places,
-                                         std::vector<std::string>& notices);
+                                         const mesh::NodeSets& places, std::vector<std::string>& notices);
 
 /// Says of edges that the ground holds and that could not be lines (mesh::with_lines) what holds them now.
 ///
@@ -32,7 +31,6 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
 void report_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices);
 
 /// Nodes of the body's edges that the ground clamps, and those that its frame goes through.
-std::vector<PetscInt> constrained_elsewhere(const Scene& scene, const Body& body,
-                                            const std::map<std::string, std::vector<PetscInt>>& places);
+std::vector<PetscInt> constrained_elsewhere(const Scene& scene, const Body& body, const mesh::NodeSets& places);
 
 }  // namespace floe::plan

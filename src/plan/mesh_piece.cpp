@@ -35,6 +35,8 @@ RawMesh on_every_rank(const RawMesh& mesh) {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     whole.place_nodes.push_back(std::move(nodes));
   }
+  for (const auto& [name, found] : mesh.place_weights)
+    whole.place_weights[name] = petsc::of_all_ranks(mesh.comm, found);
   return whole;
 }
 
@@ -77,6 +79,9 @@ RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh:
     if (found.empty()) mesh.places.pop_back(), mesh.place_nodes.pop_back();
   };
   for (std::size_t p = 0; p < whole.places.size(); ++p) add_place(whole.places[p], whole.place_nodes[p]);
+  for (const auto& [name, of_whole] : whole.place_weights)
+    for (const mesh::NodeWeight& at : of_whole)
+      if (number[at.node] >= 0) mesh.place_weights[name].push_back({number[at.node], at.weight});
   for (const auto& [name, of_whole] : piece.cuts) add_place(name, of_whole);
   for (mesh::DependentNode& link : own)
     link.node = number[link.node], link.independent_node = number[link.independent_node];

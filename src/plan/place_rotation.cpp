@@ -11,15 +11,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of a node: where it is, and of the shells there sums by their areas.
+/// Of a node: sums over the shells there, by their areas.
 struct NodeOfShells {
-  double x[3] = {0, 0, 0};
   double bent[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< 1 - n n'
   double area = 0, stiff = 0;                    ///< stiff: of bending over membrane, h^2 / 12 [m2]
 
-  Vector3d position() const { return Vector3d::Map(x); }
   /// l^2 times the directions of rotations that bend shells.
-  Matrix3d rotary() const { return area > 0 ? Matrix3d(stiff / (area * area) * Matrix3d::Map(bent)) : Matrix3d::Zero(); }
+  Matrix3d rotary() const {
+    return area > 0 ? Matrix3d(stiff / (area * area) * Matrix3d::Map(bent)) : Matrix3d::Zero();
+  }
 };
 
 void add_shell(const fem::Structure& structure, const fem::Mesh::Cell& cell, NodeOfShells& node) {
@@ -46,37 +46,41 @@ std::vector<NodeOfShells> nodes_of_shells(const fem::Structure& structure,
     return at != index.end() && at->first == mesh.global_node(local) ? std::ptrdiff_t(at->second) : -1;
   };
   std::vector<NodeOfShells> all(weights.size());
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    if (const PetscInt local = weights[i].node - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
-      Vector3d::Map(all[i].x) = mesh.positions[local];
   for (const fem::Mesh::Cell& cell : mesh.cells)
     if (fem::is_shell(cell))
       for (const int node : cell.places())
-        if (const std::ptrdiff_t i = place_of(node); i >= 0) add_shell(structure, cell, all[static_cast<std::size_t>(i)]);
+        if (const std::ptrdiff_t i = place_of(node); i >= 0)
+          add_shell(structure, cell, all[static_cast<std::size_t>(i)]);
   constexpr int doubles = sizeof(NodeOfShells) / sizeof(double);
-  MPI_Allreduce(MPI_IN_PLACE, all.front().x, doubles * static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, all.front().bent, doubles * static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
   return all;
 }
 
 }  // namespace
 
-void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights) {
+void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
+                  bool by_displacements) {
   for (reduction::WeightedNode& at : weights) at.turn.setZero(), at.twist.setZero();
   if (weights.size() < 2 || structure.mesh.dimension != 3) return;
   const std::vector<NodeOfShells> nodes = nodes_of_shells(structure, weights);
-  if (std::none_of(nodes.begin(), nodes.end(), [](const NodeOfShells& node) { return node.area > 0; })) return;
+  if (!by_displacements &&
+      std::none_of(nodes.begin(), nodes.end(), [](const NodeOfShells& node) { return node.area > 0; }))
+    return;
+  std::vector<PetscInt> numbers;
+  for (const reduction::WeightedNode& at : weights) numbers.push_back(at.node);
+  const std::vector<Vector3d> x = fem::positions_of(structure.mesh, numbers);
   Vector3d centre = Vector3d::Zero();
-  for (std::size_t i = 0; i < nodes.size(); ++i) centre += weights[i].weight * nodes[i].position();
+  for (std::size_t i = 0; i < nodes.size(); ++i) centre += weights[i].weight * x[i];
   Matrix3d inertia = Matrix3d::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Matrix3d arm = math::skew(nodes[i].position() - centre);
+    const Matrix3d arm = math::skew(x[i] - centre);
     inertia += weights[i].weight * (nodes[i].rotary() - arm * arm);
   }
   const Eigen::FullPivLU<Matrix3d> factor(inertia);
   if (!factor.isInvertible()) return;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double weight = weights[i].weight;
-    weights[i].turn = factor.solve(Matrix3d(weight * math::skew(nodes[i].position() - centre)));
+    weights[i].turn = factor.solve(Matrix3d(weight * math::skew(x[i] - centre)));
     weights[i].twist = factor.solve(Matrix3d(weight * nodes[i].rotary())) - weight * Matrix3d::Identity();
   }
 }

@@ -210,6 +210,16 @@ Weights place_weights(const fem::Structure& structure, const std::vector<PetscIn
   return weights;
 }
 
+Weights weights_of(const fem::Structure& structure, const mesh::NodeSet& place) {
+  if (place.weights.empty()) return place_weights(structure, place.nodes);
+  double sum = 0;
+  for (const double weight : place.weights) sum += weight;
+  Weights weights;
+  for (std::size_t i = 0; i < place.nodes.size(); ++i) weights.push_back({place.nodes[i], place.weights[i] / sum});
+  set_rotation(structure, weights, true);
+  return weights;
+}
+
 std::vector<reduction::WeightedNode> shaped_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
                                                     PlaceMeasure::Of of, const std::vector<double>& shape) {
   const Set set(mesh, nodes);

@@ -39,28 +39,28 @@ PetscInt node_at(const mesh::RawMesh& raw, const MassSpec& mass, const scene::Po
   return node;
 }
 
-PetscInt node_of(const mesh::RawMesh& raw, const scene::Body& body,
-                 const std::map<std::string, std::vector<PetscInt>>& places, const MassSpec& mass) {
+PetscInt node_of(const mesh::RawMesh& raw, const scene::Body& body, const mesh::NodeSets& places,
+                 const MassSpec& mass) {
   if (mass.at.point) return node_at(raw, mass, *mass.at.point);
   if (mass.at.name == "middle" && scene::unbranched(body.mesh))
     return node_at(raw, mass, scene::place_point(body.mesh, mass.at));
   const auto place = places.find(mass.at.name);
-  if (place != places.end() && place->second.size() == 1) return place->second.front();
+  if (place != places.end() && place->second.nodes.size() == 1) return place->second.nodes.front();
   std::vector<std::string> names;
-  for (const auto& [name, nodes] : places)
-    if (nodes.size() == 1) names.push_back(name);
+  for (const auto& [name, set] : places)
+    if (set.nodes.size() == 1) names.push_back(name);
   const std::string near = math::nearest(mass.at.name, names);
-  throw InputError(fmt::format("{}: {}; expected {}the coordinates of a node{}", mass.at.where.text(),
-                               place == places.end()
-                                   ? fmt::format("the mesh has no place \"{}\"", mass.at.name)
-                                   : fmt::format("the place \"{}\" has {} nodes", mass.at.name, place->second.size()),
-                               names.empty() ? "" : fmt::format("a place of one node ({}) or ", fmt::join(names, ", ")),
-                               near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+  throw InputError(fmt::format(
+      "{}: {}; expected {}the coordinates of a node{}", mass.at.where.text(),
+      place == places.end() ? fmt::format("the mesh has no place \"{}\"", mass.at.name)
+                            : fmt::format("the place \"{}\" has {} nodes", mass.at.name, place->second.nodes.size()),
+      names.empty() ? "" : fmt::format("a place of one node ({}) or ", fmt::join(names, ", ")),
+      near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
 }  // namespace
 
-void add_masses(const scene::Body& body, const std::map<std::string, std::vector<PetscInt>>& places, mesh::RawMesh& raw,
+void add_masses(const scene::Body& body, const mesh::NodeSets& places, mesh::RawMesh& raw,
                 std::map<int, fem::Section>& parts) {
   if (body.masses.empty()) return;
   int rank = 0;

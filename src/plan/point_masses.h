@@ -13,7 +13,7 @@ namespace floe::plan {
 /// @param parts   receives their sections by the number of the part
 /// @throws InputError  a place that is not there or has several nodes; no node at a point; an inertia that no mass has.
 /// Collective.
-void add_masses(const scene::Body& body, const std::map<std::string, std::vector<PetscInt>>& places, mesh::RawMesh& raw,
+void add_masses(const scene::Body& body, const mesh::NodeSets& places, mesh::RawMesh& raw,
                 std::map<int, fem::Section>& parts);
 
 }  // namespace floe::plan

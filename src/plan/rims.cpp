@@ -48,7 +48,7 @@ Matrix3d axes_about(const Vector3d& axis) {
 }  // namespace
 
 std::map<PetscInt, Rim> fixed_rims(const Scene& scene, const Body& body, const fem::Structure& structure,
-                                   const std::map<std::string, std::vector<PetscInt>>& places, const MeshAxes& mesh) {
+                                   const mesh::NodeSets& places, const MeshAxes& mesh) {
   struct Rows {
     std::vector<int> joints;
     MatrixXd J = MatrixXd(0, 6);

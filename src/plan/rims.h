@@ -21,7 +21,6 @@ struct Rim {
 /// @param places  of the body, by name; @param mesh  axes of the structure in those of the mesh
 /// @return        by global node. Collective.
 std::map<PetscInt, Rim> fixed_rims(const Scene& scene, const Body& body, const fem::Structure& structure,
-                                   const std::map<std::string, std::vector<PetscInt>>& places,
-                                   const MeshAxes& mesh = {});
+                                   const mesh::NodeSets& places, const MeshAxes& mesh = {});
 
 }  // namespace floe::plan

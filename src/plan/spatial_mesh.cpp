@@ -268,15 +268,27 @@ std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine)
   return all;
 }
 
+/// Places on every rank, nodes ascending. Collective.
+mesh::NodeSets places_of(const mesh::RawMesh& mesh) {
+  mesh::NodeSets places;
+  for (std::size_t p = 0; p < mesh.places.size(); ++p)
+    places[mesh.places[p]].nodes = gathered(mesh.comm, mesh.place_nodes[p]);
+  for (const auto& [name, mine] : mesh.place_weights) {
+    std::vector<mesh::NodeWeight> all = petsc::of_all_ranks(mesh.comm, mine);
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+    for (const mesh::NodeWeight& at : all) places[name].weights.push_back(at.weight);
+  }
+  return places;
+}
+
 /// Places of the body that its joints hold as one rigid piece each.
-std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body,
-                                                const std::map<std::string, std::vector<PetscInt>>& places) {
+std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body, const mesh::NodeSets& places) {
   std::vector<std::vector<PetscInt>> pieces;
   for (const Joint& joint : scene.joints)
     for (const Place* place : {&joint.first, &joint.second}) {
       if (body.rigid || place->body != body.name || !holds_a_piece(joint)) continue;
       const auto found = places.find(place->name);
-      if (found != places.end() && found->second.size() > 1) pieces.push_back(found->second);
+      if (found != places.end() && found->second.nodes.size() > 1) pieces.push_back(found->second.nodes);
     }
   return pieces;
 }
@@ -284,7 +296,7 @@ std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& 
 /// Nodes that links of a deck leave rotations of their own are no part of an edge that a joint holds as one, rigid or
 /// as a line hinge, nor do supports hold their rotations.
 void refuse_loose_edges(const Scene& scene, const Body& body, const std::vector<mesh::DependentNode>& links,
-                        const std::map<std::string, std::vector<PetscInt>>& places, const mesh::RawMesh& mesh) {
+                        const mesh::NodeSets& places, const mesh::RawMesh& mesh) {
   std::vector<PetscInt> loose;
   for (const mesh::DependentNode& link : links)
     if (link.spins()) loose.push_back(link.node);
@@ -295,8 +307,8 @@ void refuse_loose_edges(const Scene& scene, const Body& body, const std::vector<
       if (body.rigid || place->body != body.name || place->point || found == places.end()) continue;
       const bool rotations = joint.kind == Joint::Kind::support &&
                              std::any_of(joint.hold.begin() + 3, joint.hold.end(), [](bool hold) { return hold; });
-      if (found->second.size() < 2 || (joint.edges == Joint::Edges::mean && !rotations)) continue;
-      if (std::none_of(found->second.begin(), found->second.end(),
+      if (found->second.nodes.size() < 2 || (joint.edges == Joint::Edges::mean && !rotations)) continue;
+      if (std::none_of(found->second.nodes.begin(), found->second.nodes.end(),
                        [&](PetscInt node) { return std::binary_search(loose.begin(), loose.end(), node); }))
         continue;
       faults.push_back(fmt::format(
@@ -312,7 +324,7 @@ void add_middle(const Body& body, SpatialMesh& found) {
   if (body.mesh.piece || !has_middle(body.mesh)) return;
   Place middle;
   middle.name = "middle";
-  found.places["middle"] = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};
+  found.places["middle"].nodes = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};
 }
 
 }  // namespace
@@ -326,9 +338,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   Source source = raw_mesh(body, comm);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
-  for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
-    places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
+  mesh::NodeSets places = places_of(source.mesh);
   add_masses(body, places, source.mesh, source.parts);
   if (has_straight_edges(scene, body))
     add_straight_edges(scene, body, places, membrane_stiffness(sections_of(body, source)), source.mesh, source.parts);
@@ -350,7 +360,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   const std::vector<int> ranks =
       size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
   fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.dependent_nodes);
-  for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
+  for (auto& [name, place] : places) place.nodes = fem::global_nodes(mesh, place.nodes);
   const std::string strains = take_strains(body, mesh, sections);
   const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
   try {

@@ -87,16 +87,6 @@ bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
          std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads) == 1;
 }
 
-/// Positions of the nodes in the structure's axes, on every rank. Collective.
-std::vector<Eigen::Vector3d> positions_of(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
-  std::vector<Eigen::Vector3d> all(nodes.size(), Eigen::Vector3d::Zero());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (const PetscInt local = nodes[i] - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
-      all[i] = mesh.positions[local];
-  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return all;
-}
-
 void refuse_measure(const Load& load, const PlaceMeasure& measure) {
   using Of = PlaceMeasure::Of;
   const bool edges = load.per == Load::Per::length;
@@ -113,11 +103,16 @@ void refuse_measure(const Load& load, const PlaceMeasure& measure) {
 
 std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& structure, const Anchor& place,
                                   const MeshAxes& axes) {
+  if (place.weights)
+    throw InputError(
+        fmt::format("{}.per: the nodes of the place have weights in its file; expected a force or moment "
+                    "as a resultant, or a place without weights",
+                    load.where.text()));
   PlaceMeasure measure;
   place_weights(structure, place.nodes, &measure);
   refuse_measure(load, measure);
   if (!load.shape) return {{place, measure.size}};
-  const std::vector<Eigen::Vector3d> x = positions_of(structure.mesh, place.nodes);
+  const std::vector<Eigen::Vector3d> x = fem::positions_of(structure.mesh, place.nodes);
   std::vector<double> shape;
   double largest = 0;
   for (const Eigen::Vector3d& each : x) {
@@ -157,9 +152,8 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
   return parts;
 }
 
-Anchor spatial_place(const Body& body, const fem::Structure& structure,
-                     const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
-                     const MeshAxes& axes) {
+Anchor spatial_place(const Body& body, const fem::Structure& structure, const mesh::NodeSets& places,
+                     const Place& place, const MeshAxes& axes) {
   Anchor found;
   const bool named_centre = body.mass && !place.point && place.name == "centre";
   if (named_centre && places.contains("centre"))
@@ -174,6 +168,7 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
     found.averaging_weights = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
     return found;
   }
+  mesh::NodeSet set;
   if (place.point) {
     const fem::NearestNode nearest = fem::nearest_node(
         structure.mesh, axes.axes.transpose() * (Eigen::Vector3d::Map(place.point->data()) - axes.origin));
@@ -186,13 +181,13 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
       throw InputError(fmt::format("{}: no node of {} at ({}, {}, {}); the nearest node is at ({:.9g}, {:.9g}, {:.9g})",
                                    place.where.text(), place.body, (*place.point)[0], (*place.point)[1],
                                    (*place.point)[2], there.x(), there.y(), there.z()));
-    found.nodes = {nearest.node};
+    set.nodes = {nearest.node};
   } else {
-    const auto set = places.find(place.name);
+    const auto named = places.find(place.name);
     if (body.mass && !body.mass->has_mesh)
       throw InputError(fmt::format("{}: {} has no mesh and no place \"{}\"; expected centre or coordinates",
                                    place.where.text(), place.body, place.name));
-    if (set == places.end()) {
+    if (named == places.end()) {
       std::vector<std::string> names;
       for (const auto& entry : places) names.push_back(entry.first);
       const std::string near = math::nearest(place.name, names);
@@ -201,22 +196,20 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
                                    names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),
                                    near.empty() ? "" : "; did you mean \"" + near + "\"?"));
     }
-    if (set->second.empty())
+    if (named->second.nodes.empty())
       throw InputError(
           fmt::format("{}: the place \"{}\" of {} has no node", place.where.text(), place.name, body.name));
-    found.nodes = set->second;
+    set = named->second;
   }
+  found.nodes = set.nodes;
   const fem::Mesh& m = structure.mesh;
-  const std::vector<reduction::WeightedNode> weights = place_weights(structure, found.nodes);
+  const std::vector<reduction::WeightedNode> weights = weights_of(structure, set);
+  if (!set.weights.empty()) found.weights = std::make_shared<const std::vector<reduction::WeightedNode>>(weights);
   found.averaging_weights = averaging_weights(m, weights);
   found.node = found.averaging_weights.front().node;
   found.line = on_hinge_line(m, found);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const reduction::WeightedNode& at : weights)
-    if (const PetscInt local = at.node - m.first_node; local >= 0 && local < m.owned_nodes)
-      sum += at.weight * m.positions[local];
-  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
-  found.x = sum;
+  const std::vector<Eigen::Vector3d> x = fem::positions_of(m, found.nodes);
+  for (std::size_t i = 0; i < weights.size(); ++i) found.x += weights[i].weight * x[i];
   return found;
 }
 

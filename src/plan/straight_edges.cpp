@@ -104,8 +104,7 @@ bool has_straight_edges(const Scene& scene, const Body& body) {
   return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) { return asks(joint, body); });
 }
 
-void add_straight_edges(const Scene& scene, const Body& body,
-                        const std::map<std::string, std::vector<PetscInt>>& places, double stiffness,
+void add_straight_edges(const Scene& scene, const Body& body, const mesh::NodeSets& places, double stiffness,
                         mesh::RawMesh& raw, std::map<int, fem::Section>& parts) {
   const mesh::RawMesh whole = on_every_rank(raw);
   int rank = 0;
@@ -114,9 +113,9 @@ void add_straight_edges(const Scene& scene, const Body& body,
   for (const Joint& joint : scene.joints) {
     if (!asks(joint, body)) continue;
     const auto place = places.find(place_of(joint, body).name);
-    if (place == places.end() || place->second.size() < 3)
+    if (place == places.end() || place->second.nodes.size() < 3)
       throw InputError(key(joint) + ": its place is no edge of three nodes or more; expected the name of an edge");
-    const Edge edge = edge_of(joint, place->second, whole);
+    const Edge edge = edge_of(joint, place->second.nodes, whole);
     for (int component = 0; component < 3; ++component)
       if (joint.straight[static_cast<std::size_t>(component)])
         add_springs_of(joint, edge, component, stiffness, springs);

@@ -21,8 +21,7 @@ using namespace scene;
 /// @param stiffness  A, the maximum of all shells
 /// @throws InputError  a place of less than three nodes, with coincident ones, that is not straight, or along e; e
 /// normal to the shells. Collective.
-void add_straight_edges(const Scene& scene, const Body& body,
-                        const std::map<std::string, std::vector<PetscInt>>& places, double stiffness,
+void add_straight_edges(const Scene& scene, const Body& body, const mesh::NodeSets& places, double stiffness,
                         mesh::RawMesh& raw, std::map<int, fem::Section>& parts);
 
 /// Whether supports have straight edges of this body.

@@ -130,6 +130,9 @@ struct NearestNode {
 /// Collective.
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
+/// Of global nodes, in their order, on every rank. Collective; `nodes` the same on all ranks.
+std::vector<Eigen::Vector3d> positions_of(const Mesh& mesh, const std::vector<PetscInt>& nodes);
+
 /// The middle of the nodes, where the mesh's own origin is farther from it than ten times the mesh is long; else that
 /// origin. About a far one a body that rotates would also travel: its stiffness against rotation would stand beside the
 /// arm squared times that of springs that hold it in place, and be round-off of it. Collective.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,19 @@ struct Cell {
   int part;
 };
 
+/// The weight that a file gives a node of a place.
+struct NodeWeight {
+  PetscInt node;
+  double weight;
+};
+
+/// Nodes of a place, the same on all ranks, with the weights that a file gives them; else none: by lengths and areas.
+struct NodeSet {
+  std::vector<PetscInt> nodes;
+  std::vector<double> weights = {};
+};
+using NodeSets = std::map<std::string, NodeSet>;
+
 /// A mesh as a file holds it: no elements, no unknowns.
 ///
 /// Each rank holds a contiguous share of the nodes and of the cells, in the order of the file; nodes are numbered from
@@ -70,9 +84,10 @@ struct RawMesh {
   std::vector<std::string> parts;                  // names, same on all ranks; Cell::part indexes it
   std::vector<std::string> places;                 // names of node sets, same on all ranks
   std::vector<std::vector<PetscInt>> place_nodes;  // of each place: nodes that this rank found (the union is the set)
-  std::vector<long long> node_labels;              // of the share's nodes: their numbers in the file
-  std::vector<long long> cell_labels;              // of the share's elements
-  std::string source;                              // the file, for messages
+  std::map<std::string, std::vector<NodeWeight>> place_weights;  // of places with weights: those that this rank found
+  std::vector<long long> node_labels;                            // of the share's nodes: their numbers in the file
+  std::vector<long long> cell_labels;                            // of the share's elements
+  std::string source;                                            // the file, for messages
 };
 
 /// The part of 0..count-1 that a rank holds when all hold the same number, give or take one.

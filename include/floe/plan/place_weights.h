@@ -32,6 +32,10 @@ struct PlaceMeasure {
 std::vector<reduction::WeightedNode> place_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes,
                                                    PlaceMeasure* measure = nullptr);
 
+/// Those that a file gives, over their sum, or place_weights(). With given weights (RBE3) the place rotates by
+/// displacements wherever its nodes are not on one line. Collective.
+std::vector<reduction::WeightedNode> weights_of(const fem::Structure& structure, const mesh::NodeSet& place);
+
 /// How the place rotates, `turn` and `twist`: without shells by sum w_i theta_i; with shells as the rigid motion that
 /// is nearest to their nodes,
 ///
@@ -41,8 +45,10 @@ std::vector<reduction::WeightedNode> place_weights(const fem::Structure& structu
 /// count as displacements at the radius of inertia of the section; drilling rotations, which follow the shells by a
 /// small stiffness only, do not count. Along a straight edge it rotates by bending rotations, else by displacements.
 /// Exact for rigid motions. Collective.
-/// @param weights  their sum is 1
-void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights);
+/// @param weights           their sum is 1
+/// @param by_displacements  without shells, too, with B_i = 0, if J is regular
+void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
+                  bool by_displacements = false);
 
 /// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
 /// length or area, int N_i s. Not normalised; of either sign. Collective.

@@ -5,9 +5,9 @@ namespace floe::plan {
 
 /// A body in space on its mesh: read or generated, inspected, spread over the ranks, with its sections.
 struct SpatialMesh {
-  fem::Structure structure;                             ///< in mesh axes
-  std::map<std::string, std::vector<PetscInt>> places;  ///< global nodes by name, the same on all ranks
-  std::vector<std::string> parts;                       ///< names
+  fem::Structure structure;        ///< in mesh axes
+  mesh::NodeSets places;           ///< global nodes by name, the same on all ranks
+  std::vector<std::string> parts;  ///< names
   std::vector<std::string> notices;
   std::string strains;                         ///< which, and of a default the number that decides (fem::StrainsChoice)
   std::vector<fem::StressPoints> points = {};  ///< of each part
@@ -33,9 +33,8 @@ void check_pairs(const Plan& plan);
 /// Nodes of a place of the body, with their mean position in the structure's axes.
 /// @param place  a point is in mesh axes
 /// @throws InputError  no such set, no node there. Collective.
-Anchor spatial_place(const Body& body, const fem::Structure& structure,
-                     const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
-                     const MeshAxes& mesh = {});
+Anchor spatial_place(const Body& body, const fem::Structure& structure, const mesh::NodeSets& places,
+                     const Place& place, const MeshAxes& mesh = {});
 
 /// The parts of a load per length or area: where its shape is positive, and where it is negative.
 /// @param place  of it, found

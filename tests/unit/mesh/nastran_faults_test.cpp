@@ -66,14 +66,13 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
        "RBE2, "
        "or for a mass a rigid body of the scene, fixed to the place RBE3_70 by a joint"},
       {"RBE3,70,,1,123\n", "RBE3 70 has no grids"},
-      {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,123,1,\n,,50.,123,2\n",
-       "RBE3: field 13 expects equal weights (1 before), found '50.': a place is the mean of its grids; to leave the "
-       "card out: file: {ignore: [RBE3]}"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,0.,123,1,2\n", "RBE3: field 6 expects a weight greater than 0"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,12,1,2\n",
        "RBE3: field 7 expects the components 123 of all grids, found '12'"},
       {"GRID,5,,.5,.1,0.\nRBE3,70,,5,123456,1.,123,1,2\n",
        "bad.bdf:9: RBE3 70: reference grid 5 is 0.1 away from the mean of its grids, (0.5, 0, 0)"},
+      {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,123,1,\n,,3.,123,2\n",
+       "bad.bdf:9: RBE3 70: reference grid 5 is 0.25 away from the mean of its grids, (0.75, 0, 0)"},
       {"PSHELL,4,1,0.,1\n", "PSHELL: field 4 expects a thickness greater than 0"},
       {"MAT1,4,0.,,.3\n", "expect E and G greater than 0"},
       {"PCOMP,4\n", "PCOMP 4 has no plies"},

@@ -121,12 +121,31 @@ TEST_CASE("links leave rotations of shells and beams free, in displacement axes"
   }
 }
 
+namespace {
+
+/// By labels, of all ranks. Collective.
+std::map<long long, double> weights_at(const mesh::RawMesh& raw, const std::string& place) {
+  const auto labels = testing::of_all_ranks(raw.node_labels);
+  std::map<long long, double> weights;
+  for (const mesh::NodeWeight& at : testing::of_all_ranks(raw.place_weights.at(place)))
+    weights[labels.at(at.node)] = at.weight;
+  return weights;
+}
+
+}  // namespace
+
 TEST_CASE("an RBE3 whose reference grid carries nothing is a place") {
   const auto file = read("mean.bdf", square + "GRID,5,,.5,.5,0.\nRBE3,70,,5,123456,1.,123,1,2,\n,3,1.,123456,4\n");
   CHECK(testing::labels_at(file.mesh, "RBE3_70") == std::vector<long long>{1, 2, 3, 4});
   CHECK(file.mesh.node_count == 4);
+  CHECK(weights_at(file.mesh, "RBE3_70") == std::map<long long, double>{{1, 1}, {2, 1}, {3, 1}, {4, 1}});
   CHECK_THAT(all_of(file.notices),
              Contains("1 RBE3 without element at the reference grid") && Contains("RBE3 456 of the grids"));
+}
+
+TEST_CASE("grids of an RBE3 have weights, those named twice their sum") {
+  const auto file = read("weights.bdf", square + "GRID,5,,.75,.125,0.\nRBE3,70,,5,123456,1.,123,1,4\n,2,5.,123,2\n");
+  CHECK(weights_at(file.mesh, "RBE3_70") == std::map<long long, double>{{1, 1}, {2, 6}, {4, 1}});
 }
 
 TEST_CASE("masses by components, or by their matrix, are those of rigid bodies") {

@@ -1,0 +1,67 @@
+// Places whose nodes have weights by their file: RBE3.
+#include <catch2/catch.hpp>
+
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+constexpr double heights[] = {0, 0.05, 0.1, 0.4}, weights[] = {1, 1, 1, 3};
+constexpr double mean = (0.05 + 0.1 + 3 * 0.4) / 6;
+
+/// A plate of 1 x 0.4, clamped at x = 0, with an RBE3 of the nodes at x = 1.
+std::string plate_deck() {
+  std::string text = "BEGIN BULK\nMAT1,1,7.+10,,0.3,2700.\nPSHELL,1,1,0.01,1,,1\n";
+  for (int i = 0; i <= 6; ++i)
+    for (int j = 0; j < 4; ++j) text += fmt::format("GRID,{},,{:.6f},{:.4f},0.\n", 4 * i + j + 1, i / 6., heights[j]);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int a = 4 * i + j + 1;
+      text += fmt::format("CQUAD4,{},1,{},{},{},{}\n", 3 * i + j + 1, a, a + 4, a + 5, a + 1);
+    }
+  return text + fmt::format("GRID,90,,1.,{:.12f},0.\nRBE3,70,,90,123456,1.,123,25,26\n,27,3.,123,28\n", mean) +
+         "SPC1,1,123456,1,2,3,4\nENDDATA\n";
+}
+
+std::string scene_of(const std::string& deck, const std::string& loads) {
+  return fill(R"yaml(
+bodies:
+  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
+joints: {root: {type: fixed, between: [ground, b.SPC1]}}
+loads: {$loads}
+motion: {end: 1, step: 1}
+probes: {corner: {at: {body: b, node: [1, 0, 0]}, quantity: displacement}, mean: {at: b.RBE3_70, quantity: displacement}}
+)yaml",
+              {{"deck", deck}, {"loads", loads}});
+}
+
+}  // namespace
+
+// A force acts on the nodes as w_i F, a moment as forces w_i (J^-1 m) x r_i, J = sum w_i (r_i^2 1 - r_i r_i'); the
+// place moves by sum w_i u_i.
+TEST_CASE("RBE3: forces and moments are distributed by the weights of the card") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "mean.bdf").string();
+  write_text(deck, plate_deck());
+  double J = 0;
+  for (int j = 0; j < 4; ++j) J += weights[j] / 6 * std::pow(heights[j] - mean, 2);
+  const auto [whole, force, moment] =
+      GENERATE(std::tuple(std::string("type: force, force: [1000, 500, 20]"), Eigen::Vector3d(1000, 500, 20), 0.),
+               std::tuple(std::string("type: moment, moment: [0, 0, 100]"), Eigen::Vector3d(0, 0, 0), 100.));
+  std::string parts, names;
+  for (int j = 0; j < 4; ++j) {
+    const Eigen::Vector3d f =
+        weights[j] / 6 * (force + moment / J * Eigen::Vector3d(-(heights[j] - mean), 0, 0));
+    parts += fmt::format("f{}: {{type: force, at: {{body: b, node: [1, {}, 0]}}, force: [{:.12g}, {:.12g}, {:.12g}]}}, ",
+                         j, heights[j], f.x(), f.y(), f.z());
+  }
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation) << " " << whole);
+    History one = rest(scene_of(deck, "p: {at: b.RBE3_70, " + whole + "}"), formulation);
+    History other = rest(scene_of(deck, parts), formulation);
+    for (const char* probe : {"corner.x", "corner.y", "mean.x", "mean.y"})
+      CHECK(one[probe].back() == Approx(other[probe].back()).epsilon(2e-4));
+  }
+}
