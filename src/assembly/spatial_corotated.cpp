@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -24,11 +25,16 @@ namespace {
 /// A node may move a place by its rotation alone: in the middle of an edge under an odd load.
 bool has_weight(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
 
-/// a of an averaging weight's arm, theta x a: of its skew part, which rotates with the scene; in an edge of a shell the
-/// mean of what belongs to deflections (1) and to displacements in the plane (1.5).
+/// a of an averaging weight's arm, theta x a. In an edge of a shell, arm = c (1 + t t'/2) (theta x s), the greater one,
+/// 3/2 c s, which belongs to displacements in the plane, so that even tension is exact: c s (5/4 from the skew part of
+/// the matrix, 1/4 from the symmetric one).
 Vector3d arm_of(const AveragingWeight& weight) {
   const Eigen::Matrix3d twice = weight.arm.transpose() - weight.arm;
-  return Vector3d(twice(2, 1), twice(0, 2), twice(1, 0)) / 2;
+  const Vector3d a = Vector3d(twice(2, 1), twice(0, 2), twice(1, 0)) / 2;
+  if (a.isZero(0)) return a;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> symmetric(
+      Eigen::Matrix3d(weight.arm + weight.arm.transpose()) / 2, Eigen::EigenvaluesOnly);
+  return (1 + symmetric.eigenvalues().cwiseAbs().maxCoeff() / a.norm()) * a;
 }
 
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
