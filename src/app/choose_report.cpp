@@ -8,7 +8,7 @@ nlohmann::ordered_json to_json(const Chosen& chosen) {
   j["of"] = chosen.total ? "total" : "reduction";
   j["supported"] = chosen.supported;
   j["of_richest_model"] = chosen.richest;
-  j["within"] = chosen.within();
+  j["within"] = chosen.within() && chosen.unbounded.empty();
   for (const auto& [part, why] : chosen.unbounded) j["unbounded"][part] = why;
   if (!chosen.before.is_null()) j["before"] = chosen.before;
   j["trials"] = chosen.trials;

@@ -272,7 +272,9 @@ class TotalSearch {
     double left = 0;
     try {
       if (!own_) own_ = run(at_equal_times(scene_), scene::Formulation::vm_md, comm_, std::nullopt, plan);
-      double took = own_->offline_seconds + own_->motion_seconds;
+      double took = own_->offline_seconds + own_->motion_seconds;  // in processor time, as of the motion
+      if (own_->motion_seconds > 0 && own_->motion_processor > 0)
+        took *= std::min(1., own_->motion_processor / own_->motion_seconds);
       RunResult coarse = std::move(*own_);
       for (int halving = 0; halving < 3; ++halving) {
         const Discretisation finer = with_elements(chosen_);

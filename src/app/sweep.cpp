@@ -107,6 +107,7 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
       assembly::Model model = assembly::build_on(offline.bodies(plan, number, scene), scene);
       return move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
     };
+    if (plan.estimate) ++offline.reductions;  // with the factors that estimates need
     const RunResult result =
         plan.estimate ? run(scene, plan.formulation, PETSC_COMM_SELF, std::nullopt, quiet) : shared();
     member.steps = result.steps;
