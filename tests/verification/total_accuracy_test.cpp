@@ -56,6 +56,53 @@ TEST_CASE("total accuracy: a selected model whose total is as required has no la
   }
 }
 
+// Truth by motions: of the step, in an eighth of it; of the reduction, from the full-order model; of
+// the mesh, of that from one on elements a quarter as long; of the model, of that from geometrically exact beams and
+// shells on the same mesh.
+TEST_CASE("total accuracy: each part of each probe is near the true one") {
+  const std::string strip = R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: [$elements, 2], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 2e9, nu: 0.3, rho: 1000}
+    reduction: {modes: 4}
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {end: {type: force, at: strip.right, force: [0, 0, "4*sin(8*t)"]}}
+motion: {end: 0.4, step: $step, output: 8e-3}
+probes: {tip: {at: strip.right}, bend: {at: strip.right, quantity: rotation}}
+)yaml";
+  const bool plane = GENERATE(true, false);
+  const auto scene = [&](int times, int shorter) {
+    const std::string elements = std::to_string((plane ? 8 : 6) * times),
+                      step = number((plane ? 4e-3 : 8e-3) / shorter);
+    return plane ? scene_of({{"elements", elements}, {"step", step}})
+                 : scene::parse_scene(fill(strip, {{"elements", elements}, {"step", step}}), "scene");
+  };
+  app::RunPlan plan;
+  plan.quiet = true, plan.check_range = false, plan.estimate = true;
+  const app::RunResult own = app::run(scene(1, 1), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, plan);
+  const auto& estimate = own.summary["estimate"];
+  const app::Series full = moved(scene(1, 1), Formulation::nlffr).series;
+  const std::pair<const char*, std::vector<double>> truth[] = {
+      {"step", app::vector_errors(own.series, moved(scene(1, 8), Formulation::vm_md).series)},
+      {"mesh", app::vector_errors(full, moved(scene(4, 1), Formulation::nlffr).series)},
+      {"model", app::vector_errors(full, moved(scene(1, 1), Formulation::cfr).series)},
+      {"", app::vector_errors(own.series, full)}};
+  const std::vector<std::string> probes =
+      plane ? std::vector<std::string>{"tip", "middle"} : std::vector<std::string>{"tip", "bend"};
+  for (const auto& [part, errors] : truth)
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+      const auto& found = *part ? estimate[part]["probes"] : estimate["probes"];
+      INFO(part << " " << probes[p]);
+      REQUIRE(found.contains(probes[p]));
+      CAPTURE(found[probes[p]].get<double>(), errors[p]);
+      if (errors[p] < 1e-3) continue;
+      CHECK(found[probes[p]].get<double>() > 0.5 * errors[p]);
+      CHECK(found[probes[p]].get<double>() < 2 * errors[p]);
+    }
+}
+
 TEST_CASE("total accuracy: the selected model is as close to geometrically exact beams as required") {
   const app::Series exact = moved(scene_of({{"elements", "48"}, {"step", "1e-3"}}), Formulation::cfr).series;
   const double own = app::worst_error(moved(scene_of({}), Formulation::vm_md).series, exact);
