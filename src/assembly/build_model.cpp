@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "begin_motion.h"
 #include "drive.h"
 #include "floe/assembly/offline.h"
 #include "floe/assembly/reduce_once.h"
@@ -31,9 +32,11 @@ const char* name_of_kind(Joint::Kind kind) {
 
 }  // namespace
 
-Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, bool apart) {
+Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, Purpose purpose) {
+  const bool apart = purpose == Purpose::residuals_of_elements_apart;
   Model model = plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced, apart).model()
                                           : PlanarAssembly(plan, formulation, reduced).model();
+  if (purpose == Purpose::motion) begin_motion(plan, model);
   model.force = force_of(plan);
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const auto& [one, two] = plan.joints[j];

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "begin_motion.h"
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/floating_body.h"
@@ -290,7 +289,6 @@ Model PlanarAssembly::model() {
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));
-  begin_motion(plan_, model);
   return model;
 }
 

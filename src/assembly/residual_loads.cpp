@@ -43,7 +43,8 @@ Model full_order(Offline& offline, bool apart) {
     }
   };
   try {
-    Model model = assemble(offline.plan, Formulation::nlffr, compact, apart);
+    Model model = assemble(offline.plan, Formulation::nlffr, compact,
+                           apart ? Purpose::residuals_of_elements_apart : Purpose::residuals);
     restore();
     return model;
   } catch (...) {

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <numeric>
 
-#include "begin_motion.h"
 #include "drive.h"
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
@@ -390,7 +389,6 @@ Model SpatialAssembly::model() {
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
   model.elements = std::move(elements_);
-  if (!apart_) begin_motion(plan_, model);  // without elements there is neither mass nor stiffness
   return model;
 }
 

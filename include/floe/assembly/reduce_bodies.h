@@ -19,11 +19,15 @@ struct ReducedBody {
 /// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
 body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place);
 
+/// What a model is assembled for: of residuals the start is as the initial states of the bodies give it, without the
+/// equilibrium or steady rotation that a motion begins in, nor consistent velocities. With elements apart those of
+/// full-order bodies in space are not among the system's terms, but Model::elements.
+enum class Purpose { motion, residuals, residuals_of_elements_apart };
+
 /// The planned scene on its bodies in a formulation. @param reduced  as PlanarAssembly, SpatialAssembly
-/// @param apart  in space: elements of full-order bodies are not among the system's terms, but Model::elements;
-/// its start is not made consistent.
 /// Collective.
-Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, bool apart = false);
+Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced,
+               Purpose purpose = Purpose::motion);
 
 /// Runs linear and reads off int |eta_i eta_j| dt of each body's generators, eta = of_fields q: needed for derivatives
 /// chosen by count.
