@@ -171,6 +171,15 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
   return std::move(*model);
 }
 
+/// Before longer steps fail their results may be far off: the first half of them counts.
+void leave_out_failing(const FinishedMotion& motion, const solve::Integration& how, const ProbeSeries& own,
+                       ProbeHistory& history) {
+  if (history.stopped.empty() || how.step <= motion.how.step) return;
+  history.reached = own.t.front() + (history.reached - own.t.front()) / 2;
+  const auto end = std::upper_bound(own.t.begin(), own.t.end(), history.reached);
+  history.values.resize(std::min(history.values.size(), static_cast<std::size_t>(end - own.t.begin())));
+}
+
 ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, const Scene& scene, const Model& model,
                        const solve::Integration& how, const ProbeSeries& own, const Enough& enough) {
   const auto looks = [&](const solve::Instant& instant) {
@@ -185,6 +194,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
     history = history_of(
         [&](const solve::Instant& instant) { return enough && looks(instant) && enough(instant, time.spent()); });
     leave_out_other_joints(own, history);
+    leave_out_failing(motion, how, own, history);
     return history;
   }
   bool failed = false;  // a rank, as all know
@@ -208,6 +218,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
   if (!told) look(fault || !history.stopped.empty());
   if (failed) share_fault(motion.comm, told ? nullptr : fault, history);
   leave_out_other_joints(own, history);
+  leave_out_failing(motion, how, own, history);
   return history;
 }
 

@@ -32,20 +32,21 @@ bool same_pair(const Joint& joint, const Spot& first, const Spot& second, const 
 
 std::optional<Point> world_point(const Body& body, const Point& node, int dimension) {
   const InitialSpec& initial = body.initial;
-  if (dimension == 3) {
-    const Point &x = initial.position, &rotation = initial.rotation;
-    const Eigen::Vector3d p =
-        Eigen::Vector3d(x[0], x[1], x[2]) +
-        math::rotation({rotation[0], rotation[1], rotation[2]}) * Eigen::Vector3d(node[0], node[1], node[2]);
-    return Point{p.x(), p.y(), p.z()};
-  }
   Point p = node;
   try {
-    if (initial.deformation && !body.rigid) {
+    if (initial.deformation && !body.rigid)
       for (int i = 0; i < 2; ++i) p[i] += (*initial.deformation)[i](node[0], node[1]);
-    }
+    if (initial.spatial_deformation && !body.rigid)
+      for (int i = 0; i < 3; ++i) p[i] += (*initial.spatial_deformation)[i].value(node);
   } catch (const math::FormulaError&) {
     return {};
+  }
+  if (dimension == 3) {
+    const Point &x = initial.position, &rotation = initial.rotation;
+    const Eigen::Vector3d world =
+        Eigen::Vector3d(x[0], x[1], x[2]) +
+        math::rotation({rotation[0], rotation[1], rotation[2]}) * Eigen::Vector3d::Map(p.data());
+    return Point{world.x(), world.y(), world.z()};
   }
   const double c = std::cos(initial.angle), s = std::sin(initial.angle);
   return Point{initial.position[0] + c * p[0] - s * p[1], initial.position[1] + s * p[0] + c * p[1],

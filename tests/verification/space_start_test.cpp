@@ -127,3 +127,27 @@ probes: {tip: {at: beam.end}, inside: {at: {body: beam, node: [37.5, 0, 0]}}}
     CHECK(apart(move(fill(space, words), Formulation::vm_md), rotation.Q, plane, "tip") < 3e-2);
   }
 }
+
+TEST_CASE("a body hangs on a place in space that an initial deformation displaces") {
+  const std::string text = R"yaml(
+bodies:
+  a:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 8}}
+    section: {shape: rectangle, width: 0.02, height: 0.006, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    initial: {deformation: ["-0.02*0.02*x^3*2/3", 0, "0.02*x^2"]}
+  c: {rigid: {mass: 0.4, centre: [1.1, 0, 0], inertia: [1e-3, 1e-3, 1e-3]}, initial: {position: ["-0.02*0.02*2/3", 0, 0.02]}}
+joints:
+  root: {type: fixed, between: [ground, a.start]}
+  end: {type: spherical, between: [a.end, {body: c, node: [1, 0, 0]}]}
+motion: {end: 0.01, step: 1e-3}
+probes: {end: {at: a.end, quantity: position}, c: {at: {body: c, node: [1, 0, 0]}, quantity: position}}
+)yaml";
+  for (const auto formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    const History at = move(text, formulation);
+    CAPTURE(scene::name_of(formulation));
+    CHECK(at["end.z"].front() == Approx(0.02).epsilon(1e-3));
+    CHECK(at["c.z"].front() == Approx(at["end.z"].front()).epsilon(1e-6));
+    CHECK(at["c.z"].back() == Approx(at["end.z"].back()).epsilon(1e-6));
+  }
+}
