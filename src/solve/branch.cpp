@@ -95,10 +95,12 @@ class Follower {
     check(VecCopy(U_, change));
     check(VecAXPY(change, -1, before));
     const double size = weighted_size(change, weights);
+    const bool back = weighted_product(a, change, weights) > 0 || weighted_product(b, change, weights) < 0;
     check(VecAXPBY(a, 0.5, -0.5, b));  // (a + b)/2 of the doc comment: a's sign is changed
     const double predicted = weighted_size(a, weights);
     check(VecAXPY(a, -1, change));
-    if (!(size > 1e-9 * weighted_size(U_, weights)) || weighted_size(a, weights) <= most_departure * size) return {};
+    if (!(size > 1e-9 * weighted_size(U_, weights))) return {};
+    if (!back && weighted_size(a, weights) <= most_departure * size) return {};
     return {t, next, size / std::max(predicted, 1e-12 * size)};
   }
 

@@ -178,10 +178,12 @@ class Follower {
     const VectorXd change = before.change_to(U_), back = -step_towards(rotating_, speed, from, U_);
     const MassScale mass = mass_scale(rotating_, rotating_tangent(rotating_, speed, U_).M);
     before.restore(start);
-    const VectorXd predicted = (step_towards(rotating_, from, speed, start) + back) / 2;
+    const VectorXd forward = step_towards(rotating_, from, speed, start), predicted = (forward + back) / 2;
     there.restore(U_);
     const double size = size_of(change, mass);
-    if (!(size > 1e-9) || size_of(change - predicted, mass) <= most_departure * size) return {};
+    const auto away = [&](const VectorXd& step) { return size_of(change - step, mass) > size_of(change + step, mass); };
+    const bool along = !away(forward) && !away(back);
+    if (!(size > 1e-9) || (along && size_of(change - predicted, mass) <= most_departure * size)) return {};
     return {from, speed, size / std::max(size_of(predicted, mass), 1e-12 * size)};
   }
 

@@ -17,8 +17,9 @@ struct BranchJump {
 ///
 ///   a = -J(t0, U0)^-1 F(t1, U0),   b = J(t1, U1)^-1 F(t0, U1):   d = (a + b)/2 + O(h^3) on a branch,
 ///
-/// so that |d - (a + b)/2| <= |d|/2 once the step h is short; where the state jumps, a and b vanish with h and d does
-/// not.
+/// so that |d - (a + b)/2| <= |d|/2 once the step h is short, and both a and b point along d (weighted by masses);
+/// where the state jumps, a and b vanish with h and d does not, and where it comes to the mirror image of its branch,
+/// which is near beyond a critical load, a points away from d.
 inline constexpr double most_departure = 0.5;
 /// Of the change over the prediction: where a stop begins or ends to act within the shortest step it is at most 2.
 inline constexpr double least_jump = 3;
