@@ -204,7 +204,7 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
   if (model)
     for (const std::string& warning : model->warnings)
       if (std::find(notes.begin(), notes.end(), warning) == notes.end()) notes.push_back(warning);
-  if (const std::string changed = model ? changed_start(*model) : ""; !changed.empty()) notes.push_back(changed);
+  if (const std::string changed = model ? changed_start(scene, *model) : ""; !changed.empty()) notes.push_back(changed);
   for (const std::string& note : notes) fmt::print("Note: {}\n", note);
 }
 

@@ -119,7 +119,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
-  if (const std::string changed = changed_start(model); !changed.empty() && !plan.from)
+  if (const std::string changed = changed_start(scene, model); !changed.empty() && !plan.from)
     result.warnings.push_back(changed);
   result.series.columns = assembly::probe_columns(model);
 

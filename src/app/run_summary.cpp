@@ -1,6 +1,7 @@
 #include "run_summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,13 +59,32 @@ ordered_json body_json(const assembly::BodyReport& body) {
 
 }  // namespace
 
-std::string changed_start(const assembly::Model& model) {
+/// Of a drive at t = 0; 0 where its formula has none there.
+static double first_speed(const scene::Joint& joint) {
+  try {
+    if (joint.speed) return (*joint.speed)(0);
+    return (joint.kind == scene::Joint::Kind::driven ? joint.angle : joint.position).derivative(0);
+  } catch (const math::FormulaError&) {
+    return 0;
+  }
+}
+
+std::string changed_start(const scene::Scene& scene, const assembly::Model& model) {
   constexpr double noticeable = 0.01;
   if (!(model.velocity_correction > noticeable)) return "";
+  std::vector<std::string> moving;
+  for (const scene::Joint& joint : scene.joints) {
+    const bool rotates = joint.kind == scene::Joint::Kind::driven;
+    if (!rotates && joint.kind != scene::Joint::Kind::driven_slide) continue;
+    if (const double speed = first_speed(joint); speed != 0)
+      moving.push_back(fmt::format("{} {:.4g} {}", joint.name, speed, rotates ? "rad/s" : "m/s"));
+  }
+  const std::string drives = moving.empty() ? "" : fmt::format(" (at t = 0: {})", fmt::join(moving, ", "));
   return fmt::format(
-      "the initial velocities contradict the joints and drives, and were changed by {} of their size, as by an impulse "
+      "the initial velocities contradict the joints and drives{}, and were changed by {} of their size, as by an "
+      "impulse "
       "at t = 0; give the bodies the velocities of their drives, or let drives begin with speed 0",
-      math::percent(std::min(1.0, model.velocity_correction)));
+      drives, math::percent(std::min(1.0, model.velocity_correction)));
 }
 
 ordered_json first_summary(const scene::Scene& scene, const assembly::Model& model, MPI_Comm comm,

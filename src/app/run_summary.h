@@ -10,7 +10,7 @@ nlohmann::ordered_json first_summary(const scene::Scene& scene, const assembly::
                                      const RunResult& result);
 
 /// That the velocities at the start were changed to those of the joints and drives, by more than 1 %; else empty.
-std::string changed_start(const assembly::Model& model);
+std::string changed_start(const scene::Scene& scene, const assembly::Model& model);
 
 /// Its part `estimate`: the error of the reduction for each probe, or why there is none.
 nlohmann::ordered_json estimate_json(const assess::Estimate& estimate, const assembly::Model& model);

@@ -233,6 +233,9 @@ TEST_CASE("check: counts of elements, dofs, coordinates, multipliers and steps")
   const std::string flying = beam("    initial: {velocity: [0, 1]}\n" + joints);
   CHECK_THAT(printed([&] { app::check(parsed(flying), PETSC_COMM_WORLD); }), Contains("contradict the joints"));
   CHECK_THAT(still, !Contains("violate the joints"));
+  const std::string driven = beam("joints: {hub: {type: driven, between: [ground, beam.start], angle: \"5*t\"}}\n");
+  CHECK_THAT(printed([&] { app::check(parsed(driven + "motion: {end: 0.5, step: 0.01}\n"), PETSC_COMM_WORLD); }),
+             Contains("joints and drives (at t = 0: hub 5 rad/s)"));
 }
 
 TEST_CASE("reduce and info: the file says what it was made of") {
