@@ -15,7 +15,7 @@ namespace {
 /// Columns that have slope anywhere: their slopes' root mean square is not round-off against that of the steepest.
 std::vector<int> sloped_columns(const fem::Structure& structure, const fem::FieldRows& V) {
   const Eigen::VectorXd squares = fem::slopes(structure, V).squares();
-  const double least = squares.size() > 0 ? 1e-22 * squares.maxCoeff() : 0;
+  const double least = squares.size() > 0 ? 1e-18 * squares.maxCoeff() : 0;  // 1e-11 was seen of a tilted plate
   std::vector<int> sloped;
   for (int j = 0; j < squares.size(); ++j)
     if (squares[j] > least) sloped.push_back(j);
