@@ -16,6 +16,11 @@ struct NodeOfShells {
   double bent[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< 1 - n n'
   double area = 0, stiff = 0;                    ///< stiff: of bending over membrane, h^2 / 12 [m2]
 
+  /// Directions of rotations that the node has by itself.
+  Matrix3d by_itself(RotationBy by) const {
+    if (by != RotationBy::shares) return Matrix3d::Zero();
+    return area > 0 ? Matrix3d(Matrix3d::Map(bent) / area) : Matrix3d::Identity();
+  }
   /// l^2 times the directions of rotations that bend shells.
   Matrix3d rotary() const {
     return area > 0 ? Matrix3d(stiff / (area * area) * Matrix3d::Map(bent)) : Matrix3d::Zero();
@@ -58,12 +63,11 @@ std::vector<NodeOfShells> nodes_of_shells(const fem::Structure& structure,
 
 }  // namespace
 
-void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
-                  bool by_displacements) {
+void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights, RotationBy by) {
   for (reduction::WeightedNode& at : weights) at.turn.setZero(), at.twist.setZero();
   if (weights.size() < 2 || structure.mesh.dimension != 3) return;
   const std::vector<NodeOfShells> nodes = nodes_of_shells(structure, weights);
-  if (!by_displacements &&
+  if (by != RotationBy::displacements &&
       std::none_of(nodes.begin(), nodes.end(), [](const NodeOfShells& node) { return node.area > 0; }))
     return;
   std::vector<PetscInt> numbers;
@@ -71,17 +75,19 @@ void set_rotation(const fem::Structure& structure, std::vector<reduction::Weight
   const std::vector<Vector3d> x = fem::positions_of(structure.mesh, numbers);
   Vector3d centre = Vector3d::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i) centre += weights[i].weight * x[i];
-  Matrix3d inertia = Matrix3d::Zero();
+  Matrix3d inertia = Matrix3d::Zero(), as_one = Matrix3d::Zero();  // the part of rotations that it has as a whole
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Matrix3d arm = math::skew(x[i] - centre);
     inertia += weights[i].weight * (nodes[i].rotary() - arm * arm);
+    as_one += weights[i].weight * (Matrix3d::Identity() - nodes[i].by_itself(by));
   }
   const Eigen::FullPivLU<Matrix3d> factor(inertia);
   if (!factor.isInvertible()) return;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double weight = weights[i].weight;
-    weights[i].turn = factor.solve(Matrix3d(weight * math::skew(x[i] - centre)));
-    weights[i].twist = factor.solve(Matrix3d(weight * nodes[i].rotary())) - weight * Matrix3d::Identity();
+    weights[i].turn = as_one * factor.solve(Matrix3d(weight * math::skew(x[i] - centre)));
+    weights[i].twist = as_one * factor.solve(Matrix3d(weight * nodes[i].rotary())) +
+                       weight * (nodes[i].by_itself(by) - Matrix3d::Identity());
   }
 }
 

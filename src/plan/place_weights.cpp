@@ -216,7 +216,7 @@ Weights weights_of(const fem::Structure& structure, const mesh::NodeSet& place) 
   for (const double weight : place.weights) sum += weight;
   Weights weights;
   for (std::size_t i = 0; i < place.nodes.size(); ++i) weights.push_back({place.nodes[i], place.weights[i] / sum});
-  set_rotation(structure, weights, true);
+  set_rotation(structure, weights, RotationBy::displacements);
   return weights;
 }
 

@@ -111,13 +111,14 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
   PlaceMeasure measure;
   place_weights(structure, place.nodes, &measure);
   refuse_measure(load, measure);
-  if (!load.shape) return {{place, measure.size}};
+  const bool moment = load.kind == Load::Kind::moment;
+  if (!load.shape && !moment) return {{place, measure.size}};
   const std::vector<Eigen::Vector3d> x = fem::positions_of(structure.mesh, place.nodes);
   std::vector<double> shape;
   double largest = 0;
   for (const Eigen::Vector3d& each : x) {
     const Eigen::Vector3d at = axes.origin + axes.axes * each;
-    shape.push_back((*load.shape)(at.x(), at.y(), at.z()));
+    shape.push_back(load.shape ? (*load.shape)(at.x(), at.y(), at.z()) : 1);
     largest = std::max(largest, std::abs(shape.back()));
   }
   const std::vector<reduction::WeightedNode> weights = shaped_weights(structure.mesh, place.nodes, measure.of, shape);
@@ -140,7 +141,7 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
       part.at.nodes.push_back(weights[i].node);
       part.at.x += own.back().weight * x[i];
     }
-    set_rotation(structure, own);
+    set_rotation(structure, own, moment ? RotationBy::shares : RotationBy::nearest_motion);
     part.at.body = place.body;
     part.at.averaging_weights = averaging_weights(structure.mesh, own);
     part.at.node = part.at.averaging_weights.front().node;

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "shell_decks.h"
 #include "space_twin.h"
 
 using namespace floe;
@@ -62,6 +63,22 @@ TEST_CASE("edge loads: a shape that changes its sign has a moment and no force")
     CHECK(std::abs(at["tip.x"][0]) < 1e-3 * std::abs(at["tip.y"][0]));
     CHECK(std::abs(at["tip.z"][0]) < 1e-9);
   }
+}
+
+// M(x) = - m b sin(2 pi x) / (2 pi): w(L) = - m b / (4 pi^2 EI). As one rigid motion of the area it would be a third.
+TEST_CASE("area loads: a moment per area with a shape bends a strip as its integral") {
+  const Deck deck(shells("S4", 20, 4, 0.01, "*ELASTIC\n1e9, 0\n*DENSITY\n1000\n",
+                         [](double u, double v) { return Eigen::Vector3d(u, 0.2 * v, 0); }) +
+                  "*NSET, NSET=all, GENERATE\n1, 105\n");
+  const std::string text = fill(R"yaml(
+bodies: {strip: {mesh: {file: {path: $path}}, reduction: {modes: 8, attachment: all}}}
+joints: {clamp: {type: fixed, between: [ground, strip.left]}}
+loads: {m: {type: moment, at: strip.all, per: area, moment: [0, -0.01, 0], shape: "cos(2*pi*x)"}}
+probes: {tip: {at: strip.right, quantity: displacement}}
+)yaml",
+                                {{"path", deck.path()}});
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md})
+    CHECK(rest(text, formulation)["tip.z"][0] == Approx(-0.002 / (4 * M_PI * M_PI * EI)).epsilon(0.02));
 }
 
 TEST_CASE("edge loads: a triangular line load has the resultant of its shape") {

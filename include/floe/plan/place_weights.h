@@ -45,10 +45,16 @@ std::vector<reduction::WeightedNode> weights_of(const fem::Structure& structure,
 /// count as displacements at the radius of inertia of the section; drilling rotations, which follow the shells by a
 /// small stiffness only, do not count. Along a straight edge it rotates by bending rotations, else by displacements.
 /// Exact for rigid motions. Collective.
-/// @param weights           their sum is 1
-/// @param by_displacements  without shells, too, with B_i = 0, if J is regular
+/// Of displacements alone (RBE3), without shells, too, with B_i = 0, if J is regular. Of a moment per length or area
+/// the nodes take their share of what bends shells, and the rest, about normals, the place as a rigid motion: in flat
+/// ones
+///
+///   theta' = (1 - n n') sum w_i theta_i + n n' theta
+///
+/// @param weights  their sum is 1
+enum class RotationBy { nearest_motion, displacements, shares };
 void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
-                  bool by_displacements = false);
+                  RotationBy by = RotationBy::nearest_motion);
 
 /// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
 /// length or area, int N_i s. Not normalised; of either sign. Collective.
