@@ -57,10 +57,8 @@ ordered_json body_json(const assembly::BodyReport& body) {
   return j;
 }
 
-}  // namespace
-
 /// Of a drive at t = 0; 0 where its formula has none there.
-static double first_speed(const scene::Joint& joint) {
+double first_speed(const scene::Joint& joint) {
   try {
     if (joint.speed) return (*joint.speed)(0);
     return (joint.kind == scene::Joint::Kind::driven ? joint.angle : joint.position).derivative(0);
@@ -68,6 +66,8 @@ static double first_speed(const scene::Joint& joint) {
     return 0;
   }
 }
+
+}  // namespace
 
 std::string changed_start(const scene::Scene& scene, const assembly::Model& model) {
   constexpr double noticeable = 0.01;

@@ -174,7 +174,7 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
 /// Before longer steps fail their results may be far off: the first half of them counts.
 void leave_out_failing(const FinishedMotion& motion, const solve::Integration& how, const ProbeSeries& own,
                        ProbeHistory& history) {
-  if (history.stopped.empty() || how.step <= motion.how.step) return;
+  if (history.stopped.empty() || how.step <= motion.how.step || own.t.empty()) return;
   history.reached = own.t.front() + (history.reached - own.t.front()) / 2;
   const auto end = std::upper_bound(own.t.begin(), own.t.end(), history.reached);
   history.values.resize(std::min(history.values.size(), static_cast<std::size_t>(end - own.t.begin())));

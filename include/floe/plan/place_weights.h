@@ -36,23 +36,23 @@ std::vector<reduction::WeightedNode> place_weights(const fem::Structure& structu
 /// displacements wherever its nodes are not on one line. Collective.
 std::vector<reduction::WeightedNode> weights_of(const fem::Structure& structure, const mesh::NodeSet& place);
 
-/// How the place rotates, `turn` and `twist`: without shells by sum w_i theta_i; with shells as the rigid motion that
-/// is nearest to their nodes,
+/// Which motion of its nodes the rotation of a place is, theta of set_rotation() or one made of it.
+enum class RotationBy {
+  nearest_motion,  ///< theta; without shells sum w_i theta_i
+  displacements,   ///< RBE3: without shells, too, theta with B_i = 0, if J is regular
+  shares  ///< of moments per length or area: each node by itself as far as it bends shells, the place as one about
+          ///< normals; of flat ones (1 - n n') sum w_i theta_i + n n' theta
+};
+
+/// How the place rotates, `turn` and `twist`: as the rigid motion that is nearest to its nodes,
 ///
 ///   J theta = sum w_i (r_i x u_i + B_i theta_i),   J = sum w_i (r_i^2 1 - r_i r_i' + B_i),   r from the mean,
 ///
 /// B_i = h^2/12 (1 - n n'), the mean over the shells at the node of thickness h and normal n: rotations that bend them
 /// count as displacements at the radius of inertia of the section; drilling rotations, which follow the shells by a
 /// small stiffness only, do not count. Along a straight edge it rotates by bending rotations, else by displacements.
-/// Exact for rigid motions. Collective.
-/// Of displacements alone (RBE3), without shells, too, with B_i = 0, if J is regular. Of a moment per length or area
-/// the nodes take their share of what bends shells, and the rest, about normals, the place as a rigid motion: in flat
-/// ones
-///
-///   theta' = (1 - n n') sum w_i theta_i + n n' theta
-///
+/// Exact for rigid motions, to first order. Collective.
 /// @param weights  their sum is 1
-enum class RotationBy { nearest_motion, displacements, shares };
 void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
                   RotationBy by = RotationBy::nearest_motion);
 
