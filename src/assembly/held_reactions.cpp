@@ -295,7 +295,7 @@ void SpatialAssembly::add_held_reactions(Model& model) {
     if (!held->nodes.empty()) model.probes[p].connections.clear();
     const Anchor* place = constrained_place(plan_, static_cast<std::size_t>(j));
     const DampingSpec& damping = plan_.bodies[place->body].spec.damping;
-    if (first && held->nodes.empty() && (damping.mass != 0 || !damping.modal.empty()))
+    if (first && !constrained_nodes_.contains(j) && (damping.mass != 0 || !damping.modal.empty()))
       model.warnings.push_back(
           fmt::format("joint {}: its reaction is without the forces of damping.mass and "
                       "damping.modal of body {}",

@@ -2,6 +2,7 @@
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/error.h"
+#include "floe/reduction/place_set.h"
 #include "probe_sources.h"
 #include "spatial_assembly.h"
 
@@ -20,12 +21,19 @@ namespace {
 
 MovingAxes axes_of(const dynamics::SpatialMarker& at) { return {at.coordinates[0], at.coordinates[3], at.attitude}; }
 
+/// Of the same nodes.
+bool same_weights(const Anchor& one, const Anchor& other) {
+  if (!one.weights || !other.weights) return one.weights == other.weights;
+  return std::equal(one.weights->begin(), one.weights->end(), other.weights->begin(), other.weights->end(),
+                    [](const auto& a, const auto& b) { return a.node == b.node && a.weight == b.weight; });
+}
+
 }  // namespace
 
 const SpatialAssembly::MeanAxes* SpatialAssembly::find_mean(const Anchor& place) const {
   const auto found = std::find_if(means_.begin(), means_.end(), [&](const MeanAxes& mean) {
     const Anchor& other = mean.place;
-    return other.body == place.body && other.nodes == place.nodes && other.weights == place.weights;
+    return other.body == place.body && other.nodes == place.nodes && same_weights(other, place);
   });
   return found == means_.end() ? nullptr : &*found;
 }

@@ -176,6 +176,7 @@ void leave_out_failing(const FinishedMotion& motion, const solve::Integration& h
                        ProbeHistory& history) {
   if (history.stopped.empty() || how.step <= motion.how.step || own.t.empty()) return;
   history.reached = own.t.front() + (history.reached - own.t.front()) / 2;
+  history.stopped = fmt::format("{}; only the first half counts", first_line(history.stopped));
   const auto end = std::upper_bound(own.t.begin(), own.t.end(), history.reached);
   history.values.resize(std::min(history.values.size(), static_cast<std::size_t>(end - own.t.begin())));
 }
@@ -193,8 +194,8 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
   if (!is_reduced(model.formulation) && !alone(motion)) {
     history = history_of(
         [&](const solve::Instant& instant) { return enough && looks(instant) && enough(instant, time.spent()); });
-    leave_out_other_joints(own, history);
     leave_out_failing(motion, how, own, history);
+    leave_out_other_joints(own, history);
     return history;
   }
   bool failed = false;  // a rank, as all know
@@ -217,8 +218,8 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
   const bool told = failed;
   if (!told) look(fault || !history.stopped.empty());
   if (failed) share_fault(motion.comm, told ? nullptr : fault, history);
-  leave_out_other_joints(own, history);
   leave_out_failing(motion, how, own, history);
+  leave_out_other_joints(own, history);
   return history;
 }
 

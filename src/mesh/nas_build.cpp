@@ -88,7 +88,6 @@ std::vector<long long> NasBuild::used_grids() const {
   for (const NasMassMatrix& mass : model_.mass_matrices) used.push_back(mass.grid);
   for (const NasScalarMass& mass : model_.component_masses) used.push_back(mass.grid);
   for (const NasLink& rigid : model_.links) used.push_back(rigid.reference), add(rigid.nodes);
-  for (const NasMean& mean : model_.means) add(mean.nodes);
   std::sort(used.begin(), used.end());
   return used;
 }
@@ -121,10 +120,23 @@ void NasBuild::refuse_distant(const NasMean& mean) {
 /// A mean of grids carries nothing: where its reference grid has no more it is a place of the scene.
 void NasBuild::add_means() {
   if (model_.means.empty()) return;
-  const std::vector<long long> used = used_grids();
+  const std::vector<long long> held = used_grids();
+  const auto holds = [&](long long grid) { return std::binary_search(held.begin(), held.end(), grid); };
+  std::vector<long long> used = held;
+  for (const NasMean& mean : model_.means) used.insert(used.end(), mean.nodes.begin(), mean.nodes.end());
+  std::sort(used.begin(), used.end());
   std::vector<std::string> names;
   for (const NasMean& mean : model_.means) {
     const std::string name = "RBE3 " + std::to_string(mean.id);
+    if (std::count(names.begin(), names.end(), "RBE3_" + std::to_string(mean.id)) > 0) {
+      faults_.add(mean.where, name + ": there is another RBE3 of this number; expected one");
+      continue;
+    }
+    const auto loose = std::find_if_not(mean.nodes.begin(), mean.nodes.end(), holds);
+    if (loose != mean.nodes.end() && frames_.grid(*loose))
+      faults_.add(mean.where, fmt::format("{}: grid {} has no element, mass or link, and does not move with the body; "
+                                          "expected grids of the body; to leave the card out: file: {{ignore: [RBE3]}}",
+                                          name, *loose));
     if (std::binary_search(used.begin(), used.end(), mean.reference)) {
       faults_.add(
           mean.where,

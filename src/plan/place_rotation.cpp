@@ -1,4 +1,4 @@
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "floe/fem/pressure.h"
@@ -63,6 +63,32 @@ std::vector<NodeOfShells> nodes_of_shells(const fem::Structure& structure,
 
 }  // namespace
 
+namespace {
+
+/// Axes about which J resists, and the others, about which the nodes' own rotations count: those of a line without
+/// shells, whose coordinates are rounded, are not those of the arms that rounding makes.
+struct Axes {
+  Matrix3d inverse = Matrix3d::Zero(), others = Matrix3d::Zero();
+};
+
+Axes axes_of(const Matrix3d& inertia, const Matrix3d& rotary) {
+  constexpr double short_arms = 1e-6, no_bending = 1e-12;  // squares of lengths, of the greatest
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(inertia);
+  const double greatest = axes.eigenvalues()[2];
+  Axes found;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d e = axes.eigenvectors().col(i);
+    const double resists = axes.eigenvalues()[i];
+    if (resists > short_arms * greatest || e.dot(rotary * e) > no_bending * greatest)
+      found.inverse += e * e.transpose() / resists;
+    else
+      found.others += e * e.transpose();
+  }
+  return found;
+}
+
+}  // namespace
+
 void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights, RotationBy by) {
   for (reduction::WeightedNode& at : weights) at.turn.setZero(), at.twist.setZero();
   if (weights.size() < 2 || structure.mesh.dimension != 3) return;
@@ -75,18 +101,19 @@ void set_rotation(const fem::Structure& structure, std::vector<reduction::Weight
   const std::vector<Vector3d> x = fem::positions_of(structure.mesh, numbers);
   Vector3d centre = Vector3d::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i) centre += weights[i].weight * x[i];
-  Matrix3d inertia = Matrix3d::Zero(), as_one = Matrix3d::Zero();  // the part of rotations that it has as a whole
+  Matrix3d inertia = Matrix3d::Zero(), rotary = Matrix3d::Zero(),
+           as_one = Matrix3d::Zero();  // the part of rotations that it has as a whole
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Matrix3d arm = math::skew(x[i] - centre);
-    inertia += weights[i].weight * (nodes[i].rotary() - arm * arm);
+    rotary += weights[i].weight * nodes[i].rotary();
+    inertia -= weights[i].weight * arm * arm;
     as_one += weights[i].weight * (Matrix3d::Identity() - nodes[i].by_itself(by));
   }
-  const Eigen::FullPivLU<Matrix3d> factor(inertia);
-  if (!factor.isInvertible()) return;
+  const Axes axes = axes_of(inertia + rotary, rotary);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double weight = weights[i].weight;
-    weights[i].turn = as_one * factor.solve(Matrix3d(weight * math::skew(x[i] - centre)));
-    weights[i].twist = as_one * factor.solve(Matrix3d(weight * nodes[i].rotary())) +
+    weights[i].turn = weight * as_one * axes.inverse * math::skew(x[i] - centre);
+    weights[i].twist = weight * as_one * (axes.inverse * nodes[i].rotary() + axes.others) +
                        weight * (nodes[i].by_itself(by) - Matrix3d::Identity());
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floe/error.h"
 #include "floe/fem/pressure.h"
 #include "floe/fem/quadratic_shell.h"
 #include "floe/math/rotation.h"
@@ -212,6 +213,7 @@ Weights place_weights(const fem::Structure& structure, const std::vector<PetscIn
 
 Weights weights_of(const fem::Structure& structure, const mesh::NodeSet& place) {
   if (place.weights.empty()) return place_weights(structure, place.nodes);
+  if (place.weights.size() != place.nodes.size()) throw RunError("weights and nodes of a place differ in number");
   double sum = 0;
   for (const double weight : place.weights) sum += weight;
   Weights weights;

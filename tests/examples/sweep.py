@@ -87,7 +87,7 @@ def main():
         # a length that changes the body, and a load that does not
         done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "-o", "lengths")
         assert done.returncode == 0 and "2 reductions of bodies" in done.stdout, done.stdout + done.stderr
-        # an estimate needs the factors of the reduction: each member has its own
+        # an estimate needs the factors of the reduction: each member has its own, beside that of the columns
         done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "F=1,2,3", "--estimate", "-o", "estimated")
         assert done.returncode == 0 and "4 reductions of bodies" in done.stdout, done.stdout + done.stderr
         done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "--together", "-o", "pairs")

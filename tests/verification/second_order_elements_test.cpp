@@ -327,6 +327,22 @@ probes: {end: {at: strip.right}, turn: {at: strip.right, quantity: rotation}}
   }
 }
 
+// The strip above, clamped at one node of its edge: by the drilling stiffness there, of which a note warns.
+TEST_CASE("a strip that one node clamps moves in its plane by drilling rotations") {
+  const auto [type, factor] = GENERATE(std::pair("S8R", 520.), std::pair("S4", 1.15));
+  const Deck deck(shells(type, 10, 2, 0.005, "*ELASTIC\n7e10, 0.3\n*DENSITY\n2700\n",
+                         [](double u, double v) { return Vector3d(u, 0.1 * v, 0); }));
+  const History at = rest(fill(R"yaml(
+bodies: {strip: {mesh: {file: {path: $path}}}}
+joints: {root: {type: fixed, between: [ground, {body: strip, node: [0, 0.05, 0]}]}}
+loads: {end: {type: force, at: strip.right, force: [0, "10*t", 0]}}
+probes: {end: {at: strip.right, quantity: displacement}}
+)yaml",
+                               {{"path", deck.path()}}),
+                          Formulation::nlffr);
+  CHECK(at["end.y"].back() == Approx(factor * 10 / (3 * 7e10 * 0.005 * 1e-3 / 12)).epsilon(0.02));
+}
+
 // A tube, r = 0.1, h = 0.004, 1 m long, clamped at one end: moment about an axis across it at the mean of its other
 // rim, and a hinge across it at the first rim with a force at the other. With the mean of nodal rotations the rim
 // rotated 10 (S4) and 235 times (S8R) as far, and the hinged tube deflected 26 and 514 times as far in the plane that

@@ -102,6 +102,7 @@ TEST_CASE("interface vectors of higher degree converge to the coupling node by n
   std::vector<double> errors;
   for (int degree : {0, 1, 2}) errors.push_back(std::abs(deflection(square(2, degree), Formulation::vm_md) / full - 1));
   CHECK(errors[1] < 0.03);
+  CHECK(errors[0] < 0.04);  // 5 % with the mean of drilling rotations
   CHECK(errors[1] < 0.7 * errors[0]);
   CHECK(errors[2] < 0.5 * errors[1]);
 }

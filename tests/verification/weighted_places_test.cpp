@@ -50,7 +50,7 @@ TEST_CASE("RBE3: forces and moments are distributed by the weights of the card")
   const auto [whole, force, moment] =
       GENERATE(std::tuple(std::string("type: force, force: [1000, 500, 20]"), Eigen::Vector3d(1000, 500, 20), 0.),
                std::tuple(std::string("type: moment, moment: [0, 0, 100]"), Eigen::Vector3d(0, 0, 0), 100.));
-  std::string parts, names;
+  std::string parts;
   for (int j = 0; j < 4; ++j) {
     const Eigen::Vector3d f = weights[j] / 6 * (force + moment / J * Eigen::Vector3d(-(heights[j] - mean), 0, 0));
     parts +=
@@ -63,9 +63,45 @@ TEST_CASE("RBE3: forces and moments are distributed by the weights of the card")
     History other = rest(scene_of(deck, parts), formulation);
     for (const std::string probe : {"corner", "mean"}) {
       const auto at = [&](History& history) {
-        return Eigen::Vector2d(history[probe + ".x"].back(), history[probe + ".y"].back());
+        return Eigen::Vector3d(history[probe + ".x"].back(), history[probe + ".y"].back(),
+                               history[probe + ".z"].back());
       };
-      CHECK((at(one) - at(other)).norm() < 2e-4 * at(other).norm());
+      const Eigen::Vector3d off = (at(one) - at(other)).cwiseAbs(), size = at(other).cwiseAbs();
+      CHECK(off.head<2>().norm() < 2e-4 * size.head<2>().norm());
+      CHECK(off.z() <= 2e-4 * size.z());
     }
+  }
+}
+
+// A shaft along (1, 2, 3), coordinates of 6 decimals: a line, though rounding moves its grids off it. A moment about it
+// acts on the grids by their weights, a third of it on each of the last three: 5/9 M h / GJ beyond the first of these.
+TEST_CASE("RBE3: grids on one line rotate about it by themselves") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "shaft.bdf").string();
+  const Eigen::Vector3d end(1, 2, 3), along = end.normalized();
+  std::string text = "BEGIN BULK\nMAT1,1,7.+10,,0.3,2700.\nPBAR,1,1,4.E-4,2.E-8,1.E-8,2.E-8\n";
+  for (int i = 0; i <= 6; ++i)
+    text += fmt::format("GRID,{},,{:.6f},{:.6f},{:.6f}\n", i + 1, end.x() * i / 6, end.y() * i / 6, end.z() * i / 6);
+  for (int i = 0; i < 6; ++i) text += fmt::format("CBAR,{},1,{},{},0.,0.,1.\n", i + 1, i + 1, i + 2);
+  const Eigen::Vector3d mean = end * 5 / 6;
+  text += fmt::format("GRID,90,,{:.6f},{:.6f},{:.6f}\nRBE3,70,,90,123456,1.,123,5,6\n,7\nSPC1,1,123456,1\nENDDATA\n",
+                      mean.x(), mean.y(), mean.z());
+  write_text(deck, text);
+  const std::string scene =
+      fill(R"yaml(
+bodies: {b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}}
+joints: {root: {type: fixed, between: [ground, b.SPC1]}}
+loads: {p: {type: moment, at: b.RBE3_70, moment: [$x, $y, $z]}}
+motion: {end: 1, step: 1}
+probes: {turn: {at: b.RBE3_70, quantity: rotation}, mean: {at: b.RBE3_70, quantity: displacement}}
+)yaml",
+           {{"deck", deck}, {"x", number(along.x())}, {"y", number(along.y())}, {"z", number(along.z())}});
+  const double GJ = 7e10 / 2.6 * 2e-8, L = end.norm(), expected = (4. / 6 + 5. / 9 / 6) * L / GJ;
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    History at = rest(scene, formulation);
+    const Eigen::Vector3d turn(at["turn.rx"].back(), at["turn.ry"].back(), at["turn.rz"].back());
+    CHECK((turn - expected * along).norm() < 1e-4 * expected);
+    CHECK(std::abs(at["mean.x"].back()) + std::abs(at["mean.y"].back()) + std::abs(at["mean.z"].back()) < 1e-6);
   }
 }

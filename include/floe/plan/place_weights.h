@@ -39,7 +39,7 @@ std::vector<reduction::WeightedNode> weights_of(const fem::Structure& structure,
 /// Which motion of its nodes the rotation of a place is, theta of set_rotation() or one made of it.
 enum class RotationBy {
   nearest_motion,  ///< theta; without shells sum w_i theta_i
-  displacements,   ///< RBE3: without shells, too, theta with B_i = 0, if J is regular
+  displacements,   ///< RBE3: theta without shells, too, with B_i = 0 there
   shares  ///< of moments per length or area: each node by itself as far as it bends shells, the place as one about
           ///< normals; of flat ones (1 - n n') sum w_i theta_i + n n' theta
 };

@@ -66,6 +66,10 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
        "RBE2, "
        "or for a mass a rigid body of the scene, fixed to the place RBE3_70 by a joint"},
       {"RBE3,70,,1,123\n", "RBE3 70 has no grids"},
+      {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,123,1,2\nRBE3,70,,5,123456,1.,123,1,2\n",
+       "bad.bdf:10: RBE3 70: there is another RBE3 of this number"},
+      {"GRID,5,,.5,0.,0.\nGRID,6,,1.,0.,0.\nRBE3,70,,5,123456,1.,123,1,6\n",
+       "bad.bdf:10: RBE3 70: grid 6 has no element, mass or link"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,0.,123,1,2\n", "RBE3: field 6 expects a weight greater than 0"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,12,1,2\n",
        "RBE3: field 7 expects the components 123 of all grids, found '12'"},
