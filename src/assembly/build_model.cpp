@@ -103,13 +103,21 @@ Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
 }
 
 /// Files of versions 2 and 3 have first moments and places at arms to first order only, and do not tell whether there
-/// are any.
+/// are any; those before version 5 rotate places of shells to first order, or by the mean of their nodes.
 void warn_of_files(ReducedBodies& all) {
   for (const ReducedBody& body : all.bodies)
     if (body.report.file_version > 1 && body.report.file_version < 4)
       all.warnings.push_back(fmt::format(
           "body {}: \"{}\" is of version {} of the format, which has masses at arms (centroids off the nodes, offset "
           "masses, rigid links) to first order only; if it has any, write it again with floe reduce",
+          body.report.name, body.report.file, body.report.file_version));
+  for (const ReducedBody& body : all.bodies)
+    if (body.report.file_version >= 1 && body.report.file_version < 5 && body.report.file_has_shells)
+      all.warnings.push_back(fmt::format(
+          "body {}: \"{}\" is of version {} of the format, in which edges and areas of shells rotate to first order, "
+          "or "
+          "by the mean of their nodes; if joints, moments or probes of rotations are there, write it again with floe "
+          "reduce",
           body.report.name, body.report.file, body.report.file_version));
 }
 

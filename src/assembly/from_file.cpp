@@ -72,7 +72,7 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
   }
   BodyReport& report = reduced.report;
   report.name = report.whole = body.spec.name, report.file = body.spec.reduced->path;
-  report.file_version = file.version;
+  report.file_version = file.version, report.file_has_shells = !file.pressures.empty();
   report.nodes = file.nodes, report.elements = file.cells, report.dofs = file.dofs;
   report.dimension = file.dimension;
   report.shapes_in_file = file.has_shapes;
@@ -87,7 +87,7 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
 body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place) {
   if (place.map) {
     const Eigen::Index k = reduced.body.coordinates();
-    body::PlaceMap map{place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k), place.map->Q};
+    body::PlaceMap map{place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k), place.map->Q, place.map->H};
     for (Eigen::MatrixXd& Q : map.Q) Q = Q.topLeftCorner(k, k).eval();
     return map;
   }

@@ -39,13 +39,13 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     const body::PlaceMap map = place_map(plan_, reduced_[place.body], place);
     at.x0 = map.x;
     at.S = map.S, at.Q = map.Q;
-    at.psi = map.psi;
+    at.psi = map.psi, at.H = map.H;
     return at;
   }
   if (!sees_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
   const Eigen::Index n = static_cast<Eigen::Index>(place.averaging_weights.size());
   for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
-  at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
+  at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n), at.H = place.H;
   const auto holds = [&](PetscInt dof) {
     return std::binary_search(constrained(place.body).begin(), constrained(place.body).end(), dof);
   };

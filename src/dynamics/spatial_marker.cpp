@@ -26,6 +26,18 @@ Elastic elastic(const SpatialMarker& marker, const Eigen::Matrix3Xd& S, const Ei
   return e;
 }
 
+/// H b, by rows: of half its product with b the derivative by b.
+Matrix3d change(const SpatialMarker& marker, const Vector3d& b) {
+  Matrix3d rows;
+  for (std::size_t a = 0; a < 3; ++a) rows.row(static_cast<Index>(a)) = b.transpose() * marker.H[a];
+  return rows;
+}
+
+/// w . H.
+Matrix3d form(const SpatialMarker& marker, const Vector3d& w) {
+  return w[0] * marker.H[0] + w[1] * marker.H[1] + w[2] * marker.H[2];
+}
+
 /// S(e).
 const Eigen::Matrix3Xd& directions(const SpatialMarker& marker, const SpatialPose& at) {
   return marker.Q.empty() ? marker.S : at.S;
@@ -54,7 +66,7 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
     out.A = marker.axes, out.T = Matrix3d::Identity();
   }
   const Elastic e = elastic(marker, marker.S, q);
-  out.c = marker.x0 + e.u, out.beta = e.rotation;
+  out.c = marker.x0 + e.u, out.beta = e.rotation, out.G = Matrix3d::Identity();
   if (!marker.Q.empty()) {
     const Eigen::VectorXd own = q.segment(marker.framed() ? 6 : 0, marker.S.cols());
     math::multiply_forms(marker.Q, own, out.S);
@@ -64,8 +76,13 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   out.p = marker.mass * R + out.A * out.c;
   out.D = out.A * marker.D0, out.bend = Matrix3d::Identity();
   if (e.rotation.isZero(0)) return;
-  out.D = out.A * math::rotation(e.rotation) * marker.D0;
-  out.bend = math::rotation_tangent(e.rotation);
+  if (!marker.H.empty()) {
+    const Matrix3d H = change(marker, e.rotation);
+    out.beta += 0.5 * H * e.rotation, out.G = Matrix3d::Identity() + H;
+  }
+  out.D = out.A * math::rotation(out.beta) * marker.D0;
+  out.bend = math::rotation_tangent(out.beta);
+  if (!marker.H.empty()) out.bend = (out.G.transpose() * out.bend).eval();
 }
 
 /// After see_place.
@@ -86,9 +103,14 @@ void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eig
   const Vector3d bending = out.bend.transpose() * ed.rotation;
   out.rotation = w + bending;
   out.spin = out.A * out.rotation;
+  Vector3d bending_rate = out.bend.transpose() * edd.rotation;
+  if (!marker.H.empty()) {
+    out.beta_rate = out.G * ed.rotation, out.H_rate = change(marker, ed.rotation);
+    bending_rate += math::rotation_tangent(-out.beta) * (out.H_rate * ed.rotation);
+  }
   // T' = T(-beta): d(T(-beta) b)/dbeta = -d(T(x) b)/dx at x = -beta
-  out.spin_rate = out.A * (alpha + w.cross(bending) + out.bend.transpose() * edd.rotation -
-                           rotation_tangent_derivative(-out.beta, ed.rotation) * ed.rotation);
+  bending_rate -= rotation_tangent_derivative(-out.beta, out.beta_rate) * out.beta_rate;
+  out.spin_rate = out.A * (alpha + w.cross(bending) + bending_rate);
 }
 
 }  // namespace
@@ -126,7 +148,9 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
     out.leftCols<3>().setZero();
     out.middleCols<3>(3) << -at.A * skew(at.c_rate), -at.A * skew(at.rotation);
   }
-  const Matrix3d dragged = at.A * skew(at.omega), bent = -at.A * rotation_tangent_derivative(-at.beta, at.beta_rate);
+  const Matrix3d dragged = at.A * skew(at.omega);
+  Matrix3d bent = -at.A * rotation_tangent_derivative(-at.beta, at.beta_rate);
+  if (!marker.H.empty()) bent = (bent * at.G + at.A * math::rotation_tangent(-at.beta) * at.H_rate).eval();
   out.topRightCorner(3, k).noalias() = dragged * directions(marker, at);
   if (!marker.Q.empty()) out.topRightCorner(3, k).noalias() += at.A * at.Qed;
   out.bottomRightCorner(3, k).noalias() = bent * marker.psi;
@@ -151,7 +175,9 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
     for (int a = 0; a < 3; ++a) K.block(frame, frame, k, k) += force[a] * marker.Q[a];
   }
   if (k == 0 || moment.isZero(0)) return;
-  const Matrix3d bent = rotation_tangent_derivative(at.beta, moment);
+  Matrix3d bent = rotation_tangent_derivative(at.beta, moment);
+  if (!marker.H.empty())
+    bent = (at.G.transpose() * bent * at.G + form(marker, math::rotation_tangent(at.beta) * moment)).eval();
   for (Index j = 0; j < k; ++j) {
     const Vector3d rotated = bent * marker.psi.col(j);
     K.col(frame + j).segment(frame, k) += marker.psi.transpose().lazyProduct(rotated);

@@ -36,8 +36,10 @@ def words(dataset):
 def write(path, source, shapes=False):
     """@param source  the open HDF5 file"""
     body = from_hdf5(source)
-    content = {"format": np.array("floe reduced body"), "version": np.array(4), "Q": body.Q, "W": body.W, "place_Q": body.place_Q,
+    content = {"format": np.array("floe reduced body"), "version": np.array(5), "Q": body.Q, "W": body.W, "place_Q": body.place_Q,
                "strain_rate_damping": source["strain_rate_damping"][()] if "strain_rate_damping" in source else np.array(0.0)}
+    if len(body.s0) == 3:
+        content["place_H"] = source["places/H"][()] if "places/H" in source else np.zeros((len(body.places), 3, 3, 3))
     content.update({name: source[at][()] for name, at in ARRAYS.items()})
     content.update({name: words(source[at]) for name, at in TEXTS.items()})
     content.update(stiffness=body.stiffness, mass=body.mass_matrix, coordinate_label=np.array(body.labels, dtype=str),

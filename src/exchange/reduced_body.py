@@ -89,11 +89,11 @@ def open_file(path):
     if not isinstance(found, bytes) or found.rstrip(b"\0") != b"floe reduced body":
         file.close()
         raise Fault(f"{path}: expected a file written by floe reduce, found an HDF5 file of another kind")
-    for name, wanted, what in (("version", (1, 2, 3, 4), "of another version of the format"),
+    for name, wanted, what in (("version", (1, 2, 3, 4, 5), "of another version of the format"),
                                ("complete", (1,), "that is incomplete")):
         if file.attrs.get(name) not in wanted:
             file.close()
-            raise Fault(f"{path}: expected a complete reduced body of version 1 to 4; found one {what}")
+            raise Fault(f"{path}: expected a complete reduced body of version 1 to 5; found one {what}")
     return file
 
 

@@ -99,7 +99,8 @@ std::int64_t online_bytes(const ReducedBodyFile& file) {
                          elasticity.F.size() + file.damping.size();
   for (const auto& place : file.places)
     numbers += place.map.x.size() + place.map.S.size() + place.map.psi.size() +
-               (place.map.Q.empty() ? 0 : place.map.x.size() * file.body.coordinates() * file.body.coordinates());
+               (place.map.Q.empty() ? 0 : place.map.x.size() * file.body.coordinates() * file.body.coordinates()) +
+               9 * static_cast<std::int64_t>(place.map.H.size());
   for (const auto& [part, unit] : file.pressures)
     numbers += 15 + 16 * unit.coordinates() + unit.coordinates() * unit.coordinates();
   return numbers * static_cast<std::int64_t>(sizeof(double)) +

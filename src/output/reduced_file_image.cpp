@@ -110,7 +110,7 @@ bool has_second_order(const ReducedPlace& place) {
 
 void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t k) {
   std::vector<std::string> names;
-  Numbers x, S, psi, Q;
+  Numbers x, S, psi, Q, H;
   for (const auto& place : places) {
     names.push_back(place.name);
     append(x, place.map.x);
@@ -118,6 +118,8 @@ void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t
     append(psi, place.map.psi);
     for (hsize_t a = 0; a < d; ++a)
       append(Q, has_second_order(place) ? place.map.Q[a] : Eigen::MatrixXd::Zero(k, k).eval());
+    for (std::size_t a = 0; a < 3; ++a)
+      append(H, place.map.H.empty() ? Eigen::MatrixXd::Zero(3, 3).eval() : Eigen::MatrixXd(place.map.H[a]));
   }
   const hsize_t n = places.size();
   to.texts("places/names", names);
@@ -125,7 +127,9 @@ void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t
   to.numbers("places/S", {n, d, k}, S, "kg^-1/2", "displacement S q");
   if (std::any_of(places.begin(), places.end(), has_second_order))
     to.numbers("places/Q", {n, d, k, k}, Q, "m^-1 kg^-1", "second-order displacement q' Q_a q / 2; symmetric");
-  to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "rotation psi q");
+  to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "b = psi q of the rotation");
+  if (std::any_of(places.begin(), places.end(), [](const ReducedPlace& place) { return !place.map.H.empty(); }))
+    to.numbers("places/H", {n, 3, 3, 3}, H, "rad^-1", "second-order rotation b' H_a b / 2, added to b; symmetric");
 }
 
 void put(Writer& to, const std::vector<ReducedPressure>& pressures, hsize_t k) {

@@ -7,7 +7,7 @@
 namespace floe::output {
 
 constexpr const char* reduced_format = "floe reduced body";
-constexpr int reduced_version = 4;  ///< the newest; all from 1 on are read
+constexpr int reduced_version = 5;  ///< the newest; all from 1 on are read
 
 struct Image {
   std::vector<char> bytes;

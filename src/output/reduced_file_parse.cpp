@@ -96,6 +96,8 @@ std::vector<ReducedPlace> read_places(hid_t file, hsize_t d, hsize_t k) {
   const auto psi = read_whole<double>(file, "places/psi", {n, rotations, k});
   const bool arms = H5Lexists(file, "places/Q", H5P_DEFAULT) > 0;
   const auto Q = arms ? read_whole<double>(file, "places/Q", {n, d, k, k}) : std::vector<double>();
+  const bool turned = H5Lexists(file, "places/H", H5P_DEFAULT) > 0;
+  const auto H = turned ? read_whole<double>(file, "places/H", {n, 3, 3, 3}) : std::vector<double>();
   std::vector<ReducedPlace> places;
   for (hsize_t i = 0; i < n; ++i) {
     places.push_back({names[i],
@@ -105,6 +107,9 @@ std::vector<ReducedPlace> read_places(hid_t file, hsize_t d, hsize_t k) {
     for (hsize_t a = 0; a < d && arms; ++a) forms.push_back(matrix_at(Q.data() + (i * d + a) * k * k, k, k));
     const bool some = std::any_of(forms.begin(), forms.end(), [](const auto& form) { return !form.isZero(0); });
     if (some) places.back().map.Q = std::move(forms);
+    const double* own = H.data() + 27 * i;
+    if (turned && std::any_of(own, own + 27, [](double entry) { return entry != 0; }))
+      for (hsize_t a = 0; a < 3; ++a) places.back().map.H.push_back(matrix_at(own + 9 * a, 3, 3));
   }
   return places;
 }

@@ -73,6 +73,20 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
   return all;
 }
 
+/// body::PlaceMap::H of a place that these nodes move. Collective.
+std::vector<Eigen::Matrix3d> second_order_rotation(const fem::Mesh& mesh, const std::vector<AveragingWeight>& weights) {
+  const auto turns = [](const AveragingWeight& weight) { return !weight.turn.isZero(0); };
+  if (std::none_of(weights.begin(), weights.end(), turns)) return {};
+  std::vector<PetscInt> numbers;
+  for (const AveragingWeight& weight : weights) numbers.push_back(weight.node);
+  const std::vector<Eigen::Vector3d> x = fem::positions_of(mesh, numbers);
+  std::vector<Eigen::Matrix3d> H(3, Eigen::Matrix3d::Zero());
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t a = 0; a < 3; ++a)
+      H[a] -= math::arm_form(weights[i].turn.row(static_cast<Eigen::Index>(a)).transpose(), x[i]);
+  return H;
+}
+
 /// Whether the nodes are those of a hinge line: which follow one of them, and rotate about it by themselves.
 /// Collective.
 bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
@@ -144,6 +158,7 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
     set_rotation(structure, own, moment ? RotationBy::shares : RotationBy::nearest_motion);
     part.at.body = place.body;
     part.at.averaging_weights = averaging_weights(structure.mesh, own);
+    part.at.H = second_order_rotation(structure.mesh, part.at.averaging_weights);
     part.at.node = part.at.averaging_weights.front().node;
     part.at.weights = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(own));
     parts.push_back(std::move(part));
@@ -207,6 +222,7 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure, const me
   const std::vector<reduction::WeightedNode> weights = weights_of(structure, set);
   if (!set.weights.empty()) found.weights = std::make_shared<const std::vector<reduction::WeightedNode>>(weights);
   found.averaging_weights = averaging_weights(m, weights);
+  found.H = second_order_rotation(m, found.averaging_weights);
   found.node = found.averaging_weights.front().node;
   found.line = on_hinge_line(m, found);
   const std::vector<Eigen::Vector3d> x = fem::positions_of(m, found.nodes);

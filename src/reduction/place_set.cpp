@@ -1,6 +1,7 @@
 #include "floe/reduction/place_set.h"
 
 #include <algorithm>
+#include <array>
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
@@ -52,6 +53,21 @@ std::vector<Eigen::MatrixXd> second_order(const fem::Mesh& mesh, const std::vect
   return Q;
 }
 
+/// Of nodes that rotate by theta as one the sum of turn u is theta + 1/2 C(theta, theta), since they move by
+/// theta x x + 1/2 theta x (theta x x), those at arms as the nodes that they follow: H = -C. Collective.
+std::vector<Eigen::Matrix3d> second_order_rotation(const fem::Mesh& mesh, const std::vector<Moved>& moved) {
+  if (mesh.dimension != 3) return {};
+  std::array<Eigen::Matrix3d, 3> H;
+  for (int a = 0; a < 3; ++a) H[a].setZero();
+  for (const Moved& each : moved) {
+    const Eigen::Vector3d& x = mesh.positions[each.independent_node < 0 ? each.at.node : each.independent_node];
+    for (int a = 0; a < 3; ++a) H[a] -= math::arm_form(each.at.turn.row(a).transpose(), x);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, H[0].data(), 27, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  if (std::all_of(H.begin(), H.end(), [](const Eigen::Matrix3d& form) { return form.isZero(0); })) return {};
+  return {H.begin(), H.end()};
+}
+
 }  // namespace
 
 body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, const std::vector<WeightedNode>& nodes) {
@@ -77,7 +93,8 @@ body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, co
     check(BVRestoreColumn(basis.V, j, &column));
   }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return {sum.col(k).head(d), sum.topLeftCorner(d, k), sum.block(d, 0, n - d, k), second_order(mesh, mine, k)};
+  return {sum.col(k).head(d), sum.topLeftCorner(d, k), sum.block(d, 0, n - d, k), second_order(mesh, mine, k),
+          second_order_rotation(mesh, mine)};
 }
 
 }  // namespace floe::reduction

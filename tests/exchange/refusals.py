@@ -25,7 +25,7 @@ def prepare(folder):
     (folder / "cut.h5").write_bytes((folder / "body.h5").read_bytes()[:3000])
     with h5py.File(folder / "other.h5", "w") as file:
         file["a"] = 1
-    changed(folder, "later.h5", lambda file: file.attrs.modify("version", 5))
+    changed(folder, "later.h5", lambda file: file.attrs.modify("version", 6))
     changed(folder, "partial.h5", lambda file: file.attrs.modify("complete", 0))
     changed(folder, "lacking.h5", lambda file: file.__delitem__("elasticity/F"))
 

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "floe/assembly/reduced_bodies_file.h"
 #include "shell_decks.h"
 #include "space_twin.h"
 
@@ -79,6 +80,61 @@ probes: {tip: {at: strip.right, quantity: displacement}}
                                 {{"path", deck.path()}});
   for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md})
     CHECK(rest(text, formulation)["tip.z"][0] == Approx(-0.002 / (4 * M_PI * M_PI * EI)).epsilon(0.02));
+}
+
+/// A strip whose normal is y, clamped, under moments about its normal and about its edge: at the edge, or at a hub that
+/// a joint fixes to its mean.
+std::string bent_twice(double in_plane, double across, bool hub) {
+  return fill(R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0, 0.05], elements: [40, 2], cells: quadrilaterals}}
+    section: {thickness: 0.002}
+    material: {E: 2e11, nu: 0.3, rho: 8000}
+    reduction: {modes: 8, attachment: all}
+  hub:
+    rigid: true
+    mesh: {line: {from: [1, 0, 0.025], to: [1.1, 0, 0.025], elements: 1}}
+    section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints:
+  clamp: {type: fixed, between: [ground, strip.left]}
+  weld: {type: fixed, edges: mean, between: [strip.right, hub.start]}
+loads: {bend: {type: moment, at: $at, moment: [0, $in_plane, $across]}}
+probes: {turn: {at: $at, quantity: rotation}}
+)yaml",
+              {{"in_plane", fmt::format("{}", in_plane)},
+               {"across", fmt::format("{}", across)},
+               {"at", hub ? "hub.start" : "strip.right"}});
+}
+
+// Dead moments My, Mz at the end: torque My theta_z(x) - Mz theta_y(x) along the tangent, theta linear in x: the end
+// twists by (My theta_z - Mz theta_y) L / 2 GJ. Edges whose rotation is of first order in displacements twist it by
+// twice as much; theta_z that of a strip between E h^3 / 12 and E h^3 / 12 (1 - nu^2).
+TEST_CASE("edge loads: moments about the normal and the edge of a strip twist it as a dead moment's torque does") {
+  const double GJ = 2e11 / 2.6 * 0.05 * 8e-9 / 3;  // of shells of first order, without edge layers
+  for (const bool hub : {false, true}) {
+    const std::string small = bent_twice(1, 0.002, hub), large = bent_twice(7, 0.01, hub);  // 0.6 of the critical one
+    const History exact = rest(large, Formulation::cfr);
+    for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md, Formulation::cfr}) {
+      INFO(hub << ' ' << name_of(formulation));
+      const History at = rest(small, formulation);
+      const double torque = (1 * at["turn.rz"][0] - 0.002 * at["turn.ry"][0]) / 2;
+      CHECK(at["turn.rx"][0] == Approx(torque / GJ).epsilon(0.005));
+      const History far = rest(large, formulation, 4);
+      CHECK(far["turn.rx"][0] == Approx(exact["turn.rx"][0]).epsilon(0.005));
+      CHECK(far["turn.rz"][0] == Approx(exact["turn.rz"][0]).epsilon(0.005));
+    }
+  }
+  const Scratch scratch;
+  const std::string text = bent_twice(7, 0.01, true), path = (scratch.path / "strip.h5").string();
+  std::vector<std::string> warnings;
+  assembly::reduce_body(scene::parse_scene(text, "scene"), "strip", PETSC_COMM_WORLD, path, true, warnings);
+  std::string other = text;
+  const std::size_t begin = other.find("  strip:"), end = other.find("  hub:");
+  other.replace(begin, end - begin, "  strip: {reduced: " + path + "}\n");
+  const History mesh = rest(text, Formulation::vm_md), file = rest(other, Formulation::vm_md);
+  CHECK(file["turn.rx"][0] == Approx(mesh["turn.rx"][0]).epsilon(1e-6));
 }
 
 TEST_CASE("edge loads: a triangular line load has the resultant of its shape") {

@@ -40,6 +40,7 @@ struct BodyReport {
   std::string file = {};          ///< of a body that was reduced before
   std::string reduction_of = {};  ///< the body whose reduction it has (shared_reduction.h)
   int file_version = 0;           ///< of its format
+  bool file_has_shells = false;
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
   std::string frame = {};                 ///< pinned, clamped, mean-axis, or of another body; set by body_sizes

@@ -11,7 +11,7 @@ using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A place of a body in space, as joints and loads see it: its position and its axes as functions of the coordinates.
 ///
-///   p = mass * R + A (x0 + S e + 1/2 Q(e, e)),   D = A exp(~beta) D0,   beta = psi e
+///   p = mass * R + A (x0 + S e + 1/2 Q(e, e)),   D = A exp(~beta) D0,   beta = b + 1/2 H(b, b),   b = psi e
 ///
 /// coordinates: the frame's six (R, x) when it is framed, then the elastic ones that S and psi refer to. A framed place
 /// has A = attitude(x); among the velocities of its coordinates the frame's angular velocity in its own axes stands for
@@ -27,7 +27,8 @@ struct SpatialMarker {
   Eigen::Matrix3d D0 = Eigen::Matrix3d::Identity();     ///< axes of the place there
   Eigen::Matrix3Xd S = Eigen::Matrix3Xd::Zero(3, 0);    ///< displacement of each elastic coordinate, 3 x k
   std::vector<Eigen::MatrixXd> Q = {};                  ///< of second order: x, y, z, symmetric; empty: zero
-  Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its nodal rotation, 3 x k
+  Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its rotation, 3 x k
+  std::vector<Eigen::Matrix3d> H = {};                  ///< of its second order: x, y, z, symmetric; empty: zero
   double mass = 1;
 
   bool framed() const { return attitude != nullptr; }
@@ -48,8 +49,9 @@ struct SpatialPose {
   Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e + 1/2 Q(e, e), and its velocity omega x c + S(e) e.
   Eigen::Vector3d omega, rotation;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
   Eigen::Vector3d beta, beta_rate;
-  Eigen::Matrix3d bend;     ///< T(beta)
-  Eigen::Matrix3Xd S, Qed;  ///< S(e) = S + Q e, Q e'; not set where Q vanishes
+  Eigen::Matrix3d G, H_rate;  ///< dbeta/db = 1 + H b, and H b.; set only where H does not vanish
+  Eigen::Matrix3d bend;       ///< G' T(beta)
+  Eigen::Matrix3Xd S, Qed;    ///< S(e) = S + Q e, Q e'; not set where Q vanishes
 };
 
 /// @param q, v, a  the marker's coordinates and rates
@@ -69,7 +71,7 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
 /// With f = A' w_f, m = A' w_m, in rows and columns (x, e):
 ///
 ///   theta   (~c ~f + ~m) T(x)                    -~f S
-///   e       (S' ~f + psi' T(beta) ~m) T(x)        psi' [d(T(beta) m)/dbeta] psi + f . Q
+///   e       (S' ~f + psi' G' T(beta) ~m) T(x)     psi' [G' d(T(beta) m)/dbeta G + T(beta) m . H] psi + f . Q
 void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, double weight,
                              Eigen::MatrixXd& K);
 

@@ -76,7 +76,7 @@ struct ReducedBodyFile {
   std::optional<std::vector<std::string>> held = {};
   MadeBy made;
   bool has_shapes = false;  ///< set by reading
-  int version = 4;          ///< of the format: 1 has no Inertia::W, 2 no strain_rate_damping, 3 no Inertia::Q
+  int version = 5;  ///< of the format: 1 has no Inertia::W, 2 no strain_rate_damping, 3 no Inertia::Q, 4 no PlaceMap::H
 };
 
 /// The basis at every node, and the mesh, for pictures and for places that are thought of later: this rank's share.
@@ -109,11 +109,11 @@ void check_reduced_path(MPI_Comm comm, const std::filesystem::path& path, bool o
 /// leaves half a file there. `file` the same on every rank; rank 0 writes all but the shapes, which all ranks write
 /// together, rows in original order: the file does not depend on the number of ranks.
 ///
-/// Attributes of the file: `format` = "floe reduced body", `version` = 4 (3: without inertia/Q; 2: nor
-/// strain_rate_damping; 1: nor inertia/W), `shapes`, `checksum` (FNV-1a of all but the shapes), `complete` = 1. Each
-/// dataset has the attributes `unit` and `description` (left out where empty). Arrays are row-major, [a][b] as in
-/// body::Inertia; pairs count from 0; shapes/basis is k x nodes x dofs. In NumPy, energy and a place's displacement of
-/// coordinates q:
+/// Attributes of the file: `format` = "floe reduced body", `version` = 5 (4: without places/H; 3: nor
+/// inertia/Q; 2: nor strain_rate_damping; 1: nor inertia/W), `shapes`, `checksum` (FNV-1a of all but the shapes),
+/// `complete` = 1. Each dataset has the attributes `unit` and `description` (left out where empty). Arrays are
+/// row-major, [a][b] as in body::Inertia; pairs count from 0; shapes/basis is k x nodes x dofs. In NumPy, energy and a
+/// place's displacement of coordinates q:
 ///
 ///     f = h5py.File("arm.h5"); F = f["elasticity/F"][:]; pairs = f["elasticity/pairs"][:]
 ///     s = np.array([q[a] * q[b] * (0.5 if a == b else 1) for a, b in pairs])
@@ -121,6 +121,8 @@ void check_reduced_path(MPI_Comm comm, const std::filesystem::path& path, bool o
 ///     place = list(f["places/names"].asstr()).index("tip")
 ///     u = f["places/S"][place] @ q
 ///     if "places/Q" in f: u += 0.5 * q @ f["places/Q"][place] @ q     # places at arms
+///     b = f["places/psi"][place] @ q                                  # its rotation vector
+///     if "places/H" in f: b = b + 0.5 * b @ f["places/H"][place] @ b  # places that rotate by displacements
 ///
 /// @throws InputError  `path` exists and not `overwrite`, or is no regular file
 /// @throws RunError    path and reason; a number that is not finite, sizes that do not fit. Nothing is left, and

@@ -44,6 +44,7 @@ struct Anchor {
   /// In space: weights of `nodes` in the place, of a load with a shape, a cut, or given by the mesh file; null: those
   /// of place_weights.
   std::shared_ptr<const std::vector<reduction::WeightedNode>> weights = {};
+  std::vector<Eigen::Matrix3d> H = {};             ///< in space: of second order, body::PlaceMap::H
   bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 

@@ -21,8 +21,13 @@ std::vector<SpatialMarker> markers() {
   Random random(201);
   SpatialMarker weighted = testing::spatial_marker(random, 0, testing::attitude(random), 3);
   weighted.mass = 2.5;
+  SpatialMarker turned = testing::spatial_marker(random, 0, testing::attitude(random), 3);
+  for (int a = 0; a < 3; ++a) {
+    const Matrix3d form = random.matrix(3, 3);
+    turned.H.emplace_back(form + form.transpose());
+  }
   return {testing::spatial_marker(random, 0, testing::attitude(random), 3), weighted,
-          testing::still_marker(random, 0, 3)};
+          testing::still_marker(random, 0, 3), turned};
 }
 
 SpatialPose pose_at(const SpatialMarker& marker, const State& s) {
@@ -54,7 +59,9 @@ TEST_CASE("a place in space lies and is turned as its formula says") {
     const Matrix3d A = framed ? Matrix3d(marker.attitude->base.toRotationMatrix() *
                                          Eigen::AngleAxisd(s.q.segment<3>(3).norm(), s.q.segment<3>(3).normalized()))
                               : marker.axes;
-    const Vector3d R = framed ? Vector3d(s.q.head<3>()) : marker.origin, e = s.q.tail<3>(), beta = marker.psi * e;
+    const Vector3d R = framed ? Vector3d(s.q.head<3>()) : marker.origin, e = s.q.tail<3>(), b = marker.psi * e;
+    Vector3d beta = b;
+    for (std::size_t a = 0; a < marker.H.size(); ++a) beta[static_cast<Eigen::Index>(a)] += b.dot(marker.H[a] * b) / 2;
     CHECK((at.p - (marker.mass * R + A * (marker.x0 + marker.S * e))).norm() < 1e-14);
     CHECK((at.D - A * Eigen::AngleAxisd(beta.norm(), beta.normalized()).toRotationMatrix() * marker.D0).norm() < 1e-14);
   }

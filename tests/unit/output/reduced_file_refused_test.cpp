@@ -121,7 +121,7 @@ const std::vector<std::pair<Change, std::string>>& changes() {
       {[](hid_t f) { set_first(f, "made/ranks", Integers{7}); }, "the file is damaged"},
       {[](hid_t f) { set_first(f, "strain_rate_damping", Doubles{-1}); },
        "'strain_rate_damping': expected 0, or a positive number with a damping matrix, found -1"},
-      {[](hid_t f) { set_flag(f, "version", 5); }, "expected version 1 to 4 of the format, found version 5"},
+      {[](hid_t f) { set_flag(f, "version", 6); }, "expected version 1 to 5 of the format, found version 6"},
       {[](hid_t f) { set_flag(f, "complete", 0); }, "whose writing was broken off"},
       {[](hid_t f) { check_hdf5(H5Adelete(f, "format")); }, "found an HDF5 file of another kind"},
   };

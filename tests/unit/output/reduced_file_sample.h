@@ -44,6 +44,7 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
     file.places.push_back({name, {matrix(d, 1), matrix(d, k), matrix(d == 2 ? 1 : 3, k)}});
   if (k > 0)
     for (int a = 0; a < d; ++a) file.places[1].map.Q.push_back(matrix(k, k));
+  for (int a = 0; a < 3 && d == 3; ++a) file.places[1].map.H.push_back(matrix(3, 3));
   for (int i = 0; i < k; ++i) file.columns.push_back({"mode", "mode " + std::to_string(i + 1), 10.0 + i, 0.5, true, 0});
   file.columns.push_back({"derivative", "derivative 1,1", 0, 1e-12, false, 0.25});
   file.columns.push_back({"attachment", "root.moment", 0, 0, false, 0, "repeats tip.moment"});
@@ -98,6 +99,8 @@ inline void check_same(const floe::output::ReducedBodyFile& a, const floe::outpu
     CHECK((same(left.map.x, right.map.x) && same(left.map.S, right.map.S) && same(left.map.psi, right.map.psi)));
     REQUIRE(left.map.Q.size() == right.map.Q.size());
     for (std::size_t j = 0; j < left.map.Q.size(); ++j) CHECK(same(left.map.Q[j], right.map.Q[j]));
+    REQUIRE(left.map.H.size() == right.map.H.size());
+    for (std::size_t j = 0; j < left.map.H.size(); ++j) CHECK(same(left.map.H[j], right.map.H[j]));
   }
   REQUIRE(a.columns.size() == b.columns.size());
   for (std::size_t i = 0; i < a.columns.size(); ++i) {

@@ -40,7 +40,7 @@ TEST_CASE("a reduced body of the first version of the format, which has no W, is
   Scratch scratch;
   ReducedBodyFile file = sample_body(3, 4);
   for (body::Inertia* inertia : {&file.body.inertia, &file.body.line}) inertia->W.clear(), inertia->Q.clear();
-  file.places[1].map.Q.clear();
+  file.places[1].map.Q.clear(), file.places[1].map.H.clear();
   file.version = 1, file.strain_rate_damping = 0;
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
@@ -50,7 +50,7 @@ TEST_CASE("a reduced body of the second or third version of the format, without 
   Scratch scratch;
   ReducedBodyFile file = sample_body(3, 4);
   for (body::Inertia* inertia : {&file.body.inertia, &file.body.line}) inertia->Q.clear();
-  file.places[1].map.Q.clear();
+  file.places[1].map.Q.clear(), file.places[1].map.H.clear();
   file.version = GENERATE(2, 3);
   if (file.version == 2) file.strain_rate_damping = 0;
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
@@ -96,7 +96,12 @@ TEST_CASE("NumPy reads a reduced body with h5py") {
   const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(4, 0.25, 1);
   Eigen::Vector3d u = file.places[1].map.S * q;
   REQUIRE(!file.places[1].map.Q.empty());  // a place at an arm
-  for (int a = 0; a < 3; ++a) u[a] += 0.5 * q.dot(file.places[1].map.Q[a] * q);
+  Eigen::Vector3d b = file.places[1].map.psi * q;
+  const Eigen::Vector3d first = b;
+  for (int a = 0; a < 3; ++a) {
+    u[a] += 0.5 * q.dot(file.places[1].map.Q[a] * q);
+    b[a] += 0.5 * first.dot(file.places[1].map.H[a] * first);
+  }
   std::ofstream(scratch / "read.py") << fmt::format(R"(import h5py, numpy as np
 q = np.linspace(0.25, 1, 4)
 f = h5py.File("{}"); F = f["elasticity/F"][:]; pairs = f["elasticity/pairs"][:]
@@ -105,10 +110,13 @@ U = 0.5 * q @ f["elasticity/bending"][:] @ q + 0.5 * np.sum((F @ np.r_[q, s])**2
 place = list(f["places/names"].asstr()).index("root/left")
 u = f["places/S"][place] @ q
 if "places/Q" in f: u += 0.5 * q @ f["places/Q"][place] @ q
+b = f["places/psi"][place] @ q
+if "places/H" in f: b = b + 0.5 * b @ f["places/H"][place] @ b
+assert np.allclose(b, [{:.17g}, {:.17g}, {:.17g}], rtol=1e-12), b
 assert abs(U / {:.17g} - 1) < 1e-12 and np.allclose(u, [{:.17g}, {:.17g}, {:.17g}], rtol=1e-12), (U, u)
-assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 4 and f.attrs["complete"] == 1
+assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 5 and f.attrs["complete"] == 1
 )",
-                                                    (scratch / "arm.h5").string(),
+                                                    (scratch / "arm.h5").string(), b[0], b[1], b[2],
                                                     body::energy(file.body.elasticity, q), u[0], u[1], u[2]);
   CHECK(std::system(("/usr/bin/python3 " + (scratch / "read.py").string()).c_str()) == 0);
 }
