@@ -640,7 +640,7 @@ REDUCED = [
            says=("scene.yaml:", "bodies.beam.reduced: ", says))
       for name, prepare, says in (
           ("missing", None, "there is no file"), ("cut off", reduced.cut, "expected a complete HDF5 file"),
-          ("of another version", reduced.attribute("version", 5), "found version 5"),
+          ("of another version", reduced.attribute("version", 6), "found version 6"),
           ("of a killed writer", reduced.attribute("complete", 0), "whose writing was broken off"),
           ("damaged", reduced.made(reduced.damage), "the file is damaged"),
           ("a folder", lambda folder: (folder / "beam.h5").mkdir(), "is not a file"))),

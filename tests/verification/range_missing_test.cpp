@@ -231,7 +231,7 @@ TEST_CASE("validity: reduced bodies from files, with rotary inertia of second or
   std::vector<std::string> warnings;
   output::ReducedBodyFile file =
       assembly::reduce_body(scene::parse_scene(blade + joint, scene), "", PETSC_COMM_WORLD, path, true, warnings);
-  CHECK(file.version == 4);
+  CHECK(file.version == 5);
   const auto torsion = [&](const std::string& speeds) {
     app::CampbellRequest request;
     request.speeds = speeds;
