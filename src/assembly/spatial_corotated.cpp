@@ -44,10 +44,11 @@ bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
                      });
 }
 
-/// Whether the place is the mean of nodes that move by themselves.
+/// Whether the place is the mean of nodes that move by themselves, or, along the line of a hinge, rotate about it so.
 bool is_mean(const Anchor& place, const Pieces& pieces) {
-  return place.nodes.size() > 1 && !place.line &&
-         std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), has_weight) > 1 &&
+  return place.nodes.size() > 1 &&
+         (place.line ||
+          std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), has_weight) > 1) &&
          std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return in(piece, place); });
 }
 
@@ -95,7 +96,8 @@ void SpatialAssembly::find_constrained_nodes() {
     const Joint& joint = plan_.scene.joints[j];
     const Anchor* place = constrained_place(plan_, j);
     if (!place || place->body < 0 || !corotated(place->body)) continue;
-    const bool released = clamps(joint) && is_unlocked(plan_.scene, joint.name) && is_corotated_mean(*place);
+    const bool released =
+        clamps(joint) && is_unlocked(plan_.scene, joint.name) && !place->line && is_corotated_mean(*place);
     if (joint.kind != Joint::Kind::support && !released) continue;
     for (const Probe& probe : plan_.scene.probes)
       if (probe.joint == joint.name && probe.quantity == Probe::Quantity::power)

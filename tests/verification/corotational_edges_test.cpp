@@ -197,3 +197,44 @@ probes: {turn: {at: p.right, quantity: rotation}, d: {at: p.right, quantity: dis
   const Eigen::Matrix<double, 3, 2> rotated = motion(math::rotation(Eigen::Vector3d(0.9, 1.2, -1.4)));
   for (int i = 0; i < 2; ++i) CHECK((rotated - along).col(i).norm() < 1e-7 * along.col(i).norm());
 }
+
+// A plate of 0.8 x 1 on a hinge along its edge, that a spring holds there: it rotates by F L / k as a whole and bends
+// as one that is clamped at the mean of its edge, by about F L^3 / 3 EI. A moment on one node of the edge bends it
+// twice as much, and more on finer meshes.
+TEST_CASE("cfr edges: springs, motors and stops of a hinge along an edge act on its mean") {
+  const std::string text = R"yaml(
+bodies:
+  base: {rigid: {mass: 1, centre: [0, 0, 0], inertia: [1, 1, 1]}}
+  p:
+    mesh: {plate: {along: [0.8, 0, 0], across: [0, 1, 0], elements: [8, 6], cells: quadrilaterals}}
+    section: {thickness: 4e-3}
+    material: {E: 4e9, nu: 0.3, rho: 800}
+    initial: {position: [-0.4, 0, 0]}
+joints:
+  g: {type: fixed, between: [ground, {body: base, node: [0, 0, 0]}]}
+  h: {type: revolute, between: [$base, p.bottom], axis: [1, 0, 0]$stop}
+  $spring
+loads:
+  f: {type: force, at: p.top, force: [0, 0, "0.1*t"]}
+  $motor
+probes: {tip: {at: p.top}, edge: {at: p.bottom, quantity: rotation}, a: {joint: h, quantity: angle}}
+)yaml";
+  const std::string place = "{body: base, node: [0, 0, 0]}";
+  const std::string spring = "s: {type: spring, between: [" + place +
+                             ", p.bottom], axis: [1, 0, 0], torsional_stiffness: 6}",
+                    grounded =
+                        "s: {type: spring, between: [ground, p.bottom], axis: [1, 0, 0], torsional_stiffness: 6}";
+  const std::vector<Words> variants = {
+      {{"base", place}, {"stop", ""}, {"spring", spring}, {"motor", ""}},
+      {{"base", "ground"}, {"stop", ""}, {"spring", grounded}, {"motor", ""}},
+      {{"base", place}, {"stop", ""}, {"spring", ""}, {"motor", "m: {type: moment, joint: h, moment: \"-6*h.angle\"}"}},
+      {{"base", place}, {"stop", ", limits: {upper: 0, stiffness: 6, width: 1e-6}"}, {"spring", ""}, {"motor", ""}}};
+  for (const Words& words : variants) {
+    CAPTURE(fill(text, words));
+    const History exact = rest(fill(text, words), Formulation::cfr), full = rest(fill(text, words), Formulation::nlffr);
+    CHECK(exact["a.value"][0] == Approx(0.1 / 6).epsilon(2e-3));
+    CHECK(exact["edge.rx"][0] == Approx(0.1 / 6).epsilon(2e-3));
+    CHECK(exact["tip.z"][0] == Approx(0.1 / 6 + 0.1 / (3 * 4e9 * 0.8 * 6.4e-8 / 12)).epsilon(0.01));
+    CHECK(exact["tip.z"][0] == Approx(full["tip.z"][0]).epsilon(3e-3));
+  }
+}
