@@ -136,7 +136,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     if (keeps) kept.note(event);
   };
   const bool estimates = plan.estimate && !plan.from;
-  std::optional<assess::MotionStart> start;
+  std::optional<solve::State> start;
   if (estimates && plan.budget) start = assess::start_of(model);
   const std::optional<solve::MotionState> from =
       plan.from ? std::optional(state_of(*plan.from)) : std::optional<solve::MotionState>();

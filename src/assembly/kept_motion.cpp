@@ -9,7 +9,6 @@ using solve::State;
 
 void KeptMotion::keep(const solve::Instant& instant) {
   if (instant.step == 0) begin_ = instant.t;
-  if (instant.step == 0 && carried_.empty()) model_.system->save(carried_);
   if (!changes_.empty()) event_error_ = std::max(event_error_, instant.event_error);
   const bool again = !changes_.empty() && instant.t == changes_.back().t;  // behind the event
   if (again || !instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
@@ -21,16 +20,7 @@ void KeptMotion::keep(const solve::Instant& instant) {
 }
 
 void KeptMotion::note(const solve::EventReport& event) {
-  if (!event.switches) return;
-  changes_.push_back({event.name, event.t});
-  model_.system->save(changes_.back().carried);
-}
-
-void KeptMotion::set_joints(const State& state) const {
-  if (changes_.empty()) return;
-  const auto next = std::partition_point(changes_.begin(), changes_.end(),
-                                         [&](const JointChange& change) { return change.t < state.t; });
-  model_.system->load(next == changes_.begin() ? carried_ : std::prev(next)->carried);
+  if (event.switches) changes_.push_back({event.name, event.t});
 }
 
 VectorXd deformations(const Model& model, const VectorXd& q) {

@@ -27,7 +27,6 @@ ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Est
   const std::size_t stride = reduction.t.empty() ? 1 + states.size() / most_instants : 1;
   for (std::size_t i = states.empty() ? 0 : (states.size() - 1) % stride; i < states.size(); i += stride) {
     if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
-    motion.set_joints(states[i]);
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
     series.values.push_back(probe_values(model, states[i].t, U, V, A));

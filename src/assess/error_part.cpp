@@ -230,8 +230,7 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
   solve::Integration how = motion.how;
   how.step *= times, how.end = end;
   const petsc::VecHandle A = motion.model.system->create_vector();
-  solve::set_state(*motion.model.system, motion.start.state, motion.model.U, motion.model.V, A);
-  motion.model.system->load(motion.start.carried);
+  solve::set_state(*motion.model.system, motion.start, motion.model.U, motion.model.V, A);
   return compared(motion, own.columns, simulated(motion, time, motion.scene, motion.model, how, own),
                   fmt::format("the motion in steps {:g} times as long", times), part);
 }

@@ -108,8 +108,13 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   const dynamics::System& system = *more.system;
   const solve::DeviationStart start = at_start(*reduced.offline, more);
   std::vector<State> states;
-  for (const State& state : motion.states()) states.push_back(lifted_to_more_columns(state, reduced, more));
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
+  for (const State& state : motion.states()) {  // one after another, as joints count their turns
+    State& lifted = states.emplace_back(lifted_to_more_columns(state, reduced, more));
+    solve::set_state(system, lifted, U, V, A);
+    system.rebase(U);
+    system.save(lifted.carried);
+  }
   const auto values = [&](const State& state) {
     solve::set_state(system, state, U, V, A);
     return probe_values(more, state.t, U, V, A);

@@ -45,7 +45,6 @@ class Comparison {
     const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                            A = model.system->create_vector();
     for (const State& state : states_) {
-      motion.set_joints(state);
       solve::set_state(*model.system, state, U, V, A);
       values_.push_back(probe_values(model, state.t, U, V, A));
     }
@@ -102,14 +101,10 @@ class Comparison {
 
 }  // namespace
 
-MotionStart start_of(const Model& model) {
-  MotionStart start{solve::state_of(*model.system, 0, model.U, model.V, model.V), {}};
-  model.system->save(start.carried);
-  return start;
-}
+State start_of(const Model& model) { return solve::state_of(*model.system, 0, model.U, model.V, model.V); }
 
-StepError estimate_step_error(const Model& model, const MotionStart& start, const KeptMotion& motion,
-                              solve::Integration how, double took, double allowed) {
+StepError estimate_step_error(const Model& model, const State& start, const KeptMotion& motion, solve::Integration how,
+                              double took, double allowed) {
   StepError error;
   error.none.clear();
   if (how.tolerance) error.none = "steps are adaptive, controlled by motion.tolerance";
@@ -125,8 +120,7 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
   Comparison comparison(model, motion, step);
   how.on_event = [&](const dynamics::EventReport& event) { comparison.note(event); };
   const petsc::VecHandle A = model.system->create_vector();
-  solve::set_state(*model.system, start.state, model.U, model.V, A);
-  model.system->load(start.carried);
+  solve::set_state(*model.system, start, model.U, model.V, A);
   const solve::IntegrationReport report = solve::simulate(
       *model.system, how, model.U, model.V, [&](const solve::Instant& instant) { comparison.observe(instant); });
   const double steps = error.until / how.step;

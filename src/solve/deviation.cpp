@@ -12,6 +12,7 @@ using petsc::check;
 
 State state_of(const System& system, double t, Vec U, Vec V, Vec A) {
   State state{t, {}, {}, {}, {}};
+  system.save(state.carried);
   system.gather(U, state.q), system.gather(V, state.v), system.gather(A, state.a);
   const std::vector<char>& multiplier = system.coordinates().multiplier();
   for (Eigen::Index i = 0; i < state.q.size(); ++i)
@@ -31,6 +32,7 @@ void set_state(const System& system, const State& state, Vec U, Vec V, Vec A) {
       if (global[i] >= owned.first && global[i] < owned.end) owned[global[i]] = local[i];
   };
   set(state.q, U), set(state.v, V), set(state.a, A);
+  if (!state.carried.empty()) system.load(state.carried);
   for (std::size_t i = 0; i < state.bases.size(); ++i) system.attitudes()[i].second->base = state.bases[i];
 }
 

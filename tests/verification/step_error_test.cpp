@@ -20,7 +20,7 @@ Moved move_with_step_error(const std::string& text, double allowed) {
   Moved all{{assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
   const assembly::Model& model = all.history.model;
   const solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
-  const assess::MotionStart start = assess::start_of(model);
+  const solve::State start = assess::start_of(model);
   assess::KeptMotion kept(model);
   solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) {
     store(all.history, at.t, at.U, at.V);

@@ -8,8 +8,7 @@ namespace floe::assembly {
 /// An event that has locked or unlocked a joint.
 struct JointChange {
   std::string event;
-  double t = 0;                      ///< [s]; the state at t is that before it
-  std::vector<double> carried = {};  ///< by terms, after it (System::save)
+  double t = 0;  ///< [s]; the state at t is that before it
 };
 
 /// States of a reduced motion, each so many steps apart that there are at most `most`: what its estimate needs.
@@ -24,8 +23,6 @@ class KeptMotion {
   const std::vector<JointChange>& changes() const { return changes_; }
   /// The largest one of steps after these (solve::Instant).
   double event_error() const { return event_error_; }
-  /// Joints of the model as they are at a kept state; nothing where no event changes any.
-  void set_joints(const solve::State& state) const;
   const std::vector<solve::State>& states() const { return states_; }
 
  private:
@@ -34,7 +31,6 @@ class KeptMotion {
   double begin_ = 0;
   PetscInt stride_ = 1;
   std::vector<solve::State> states_;
-  std::vector<double> carried_;  // at the start
   std::vector<JointChange> changes_;
   double event_error_ = 0;
 };

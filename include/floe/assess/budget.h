@@ -42,7 +42,7 @@ void leave_out_quiet(const ProbeSeries& own, ErrorPart& part);
 struct FinishedMotion {
   const Scene& scene;
   const Model& model;  ///< its vectors are overwritten
-  const MotionStart& start;
+  const solve::State& start;
   solve::Integration how;
   PetscInt steps = 0;             ///< that it took
   double seconds = 0;             ///< processor time of the motion

@@ -8,13 +8,8 @@
 
 namespace floe::assess {
 
-/// Where a motion begins, to be begun once more: taken before it is moved.
-struct MotionStart {
-  solve::State state;
-  std::vector<double> carried;  ///< by terms (System::save)
-};
-/// Collective.
-MotionStart start_of(const Model& model);
+/// Where a motion begins, to be begun once more: taken before it is moved. Collective.
+solve::State start_of(const Model& model);
 
 /// What the step does to a reduced motion, by the motion with another step (Richardson; the scheme is of order 2):
 ///
@@ -35,7 +30,7 @@ struct StepError {
 /// @param allowed   time that it may take, about [s]: half the step where there is time for twice the motion, else
 /// twice the step, of the first part alone where that is needed; as rank 0 has it
 /// @throws RunError, InputError  on every rank alike. Every rank moves its own copy.
-StepError estimate_step_error(const Model& model, const MotionStart& start, const KeptMotion& motion,
+StepError estimate_step_error(const Model& model, const solve::State& start, const KeptMotion& motion,
                               solve::Integration how, double took, double allowed);
 
 }  // namespace floe::assess

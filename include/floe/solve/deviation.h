@@ -13,13 +13,14 @@ struct State {
   double t = 0;
   Eigen::VectorXd q, v, a;
   std::vector<Eigen::Quaterniond> bases;  ///< of System::attitudes, in their order, whose unknowns in q are zero
+  std::vector<double> carried = {};  ///< by the terms of its system (System::save): turns of joints; empty: unknown
 };
 
 /// The state of an instant of `system`. Collective.
 State state_of(const System& system, double t, Vec U, Vec V, Vec A);
 
-/// Puts a state into vectors of the system, and its bases into the attitudes. Entries that other ranks own are left to
-/// them. Rank-local.
+/// Puts a state into vectors of the system, its bases into the attitudes, and what it carries into the terms. Entries
+/// that other ranks own are left to them. Rank-local.
 void set_state(const System& system, const State& state, Vec U, Vec V, Vec A);
 
 /// What a search for the deviation took.
@@ -48,7 +49,8 @@ DeviationStart deviation_between(const System& system, const State& from, const 
 /// converges (KSP prefix estimate_).
 ///
 /// @param system   on one rank, whose terms take their steps from state to state (Term::begin_step)
-/// @param known    in ascending order of t, all after `begin`
+/// @param known    in ascending order of t, all after `begin`; what they carry (State) is of `system`, or empty: then a
+///                 joint turns by less than half a turn between two of them
 /// @param start    d and d' at `begin`; empty: 0
 /// @param observe  called at each of them with the state, d, d' and d''
 DeviationReport deviation(const System& system, double begin, const std::vector<State>& known,

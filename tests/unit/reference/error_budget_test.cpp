@@ -22,7 +22,7 @@ Budget budget_of(const std::string& text, double allowed) {
   Budget all{{assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}, {}, {}, {}};
   const assembly::Model& model = all.history.model;
   solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
-  const assess::MotionStart start = assess::start_of(model);
+  const solve::State start = assess::start_of(model);
   assess::KeptMotion kept(model);
   all.history.report = solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) {
     store(all.history, at.t, at.U, at.V);
@@ -65,7 +65,7 @@ struct Reduced {
   scene::Scene scene;
   assembly::Model model;
   solve::Integration how;
-  assess::MotionStart start;
+  solve::State start;
   assess::KeptMotion kept;
   solve::IntegrationReport report;
   assess::Estimate estimate;
@@ -290,7 +290,7 @@ probes: {tip: {at: beam.end}}
   equilibria(exact.model, [&](const solve::Instant& at) { store(exact, at.t, at.U, at.V); });
   one.estimate = assess::estimate_error_at_rest(model, kept.states(), 100);
   const assess::ProbeSeries own = assess::probe_series(model, kept, one.estimate);
-  const assess::MotionStart start;
+  const solve::State start;
   solve::Integration how;
   how.end = 1, how.step = 1. / steps;
   const assess::FinishedMotion motion{scene, model, start, how, steps, 0.1, 0.1, PETSC_COMM_WORLD, true};

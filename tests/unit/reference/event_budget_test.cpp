@@ -33,7 +33,7 @@ struct Switched {
   scene::Scene scene;
   History history;
   solve::Integration how;
-  assess::MotionStart start;
+  solve::State start;
   assess::KeptMotion kept;
   assess::ProbeSeries own;
 };
