@@ -12,14 +12,14 @@ using scene::Formulation;
 namespace {
 
 /// A square tube of shells, side 1, 10 sides long and t = 0.05, as a deck: n elements along it, m on each side.
-void write_tube(const std::string& path, int n, int m) {
+void write_tube(const std::string& path, double length, int n, int m) {
   const int ring = 4 * m;
   std::string text = "*NODE\n";
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j < ring; ++j) {
       const double s = double(j % m) / m;
       const double y[] = {s - 0.5, 0.5, 0.5 - s, -0.5}, z[] = {-0.5, s - 0.5, 0.5, 0.5 - s};
-      text += fmt::format("{}, {}, {}, {}\n", i * ring + j + 1, 10.0 * i / n, y[j / m], z[j / m]);
+      text += fmt::format("{}, {}, {}, {}\n", i * ring + j + 1, length * i / n, y[j / m], z[j / m]);
     }
   text += "*ELEMENT, TYPE=S4, ELSET=ALL\n";
   for (int i = 0; i < n; ++i)
@@ -74,13 +74,13 @@ std::vector<double> loaded(const std::string& text, Formulation formulation, int
 
 }  // namespace
 
-// w/L of CalculiX 2.20 (S8R, 40 elements along the tube, NLGEOM) for the force that bends its line by 4 and 10 % of L
-// by beam theory, P = 3 EI d/L^2.
+// w/L of CalculiX 2.20 (S8R, 40 elements along the tube of 10 sides, 30 along the one of 15, NLGEOM) for the force that
+// bends its line by 4 and 10 % of L by beam theory, P = 3 EI d/L^2.
 TEST_CASE("second order: a square tube of shells bends as in CalculiX with large displacements") {
   Scratch scratch;
-  write_tube((scratch.path / "tube.inp").string(), 40, 4);
-  const auto tip = [&](double deflection) {
-    const double EI = 7e10 * 0.05 * 2 / 3, L = 10;
+  const auto tip = [&](double L, double deflection) {
+    write_tube((scratch.path / "tube.inp").string(), L, static_cast<int>(4 * L), 4);
+    const double EI = 7e10 * 0.05 * 2 / 3;
     return loaded(fill(R"yaml(
 bodies: {tube: {mesh: {file: {path: tube.inp}}}}
 joints: {root: {type: fixed, between: [ground, tube.ROOT]}}
@@ -92,8 +92,10 @@ probes: {tip: {at: tube.TIP}}
                   Formulation::nlffr, 4, (scratch.path / "scene.yaml").string())[2] /
            L;
   };
-  CHECK(tip(0.04) == Approx(0.041562).epsilon(5e-3));
-  CHECK(tip(0.1) == Approx(0.103957).epsilon(5e-3));
+  CHECK(tip(10, 0.04) == Approx(0.041562).epsilon(5e-3));
+  CHECK(tip(10, 0.1) == Approx(0.103957).epsilon(5e-3));
+  CHECK(tip(15, 0.04) == Approx(0.040526).epsilon(5e-3));
+  CHECK(tip(15, 0.1) == Approx(0.100957).epsilon(5e-3));
 }
 
 // Mean displacement of the upper flange's end along y, of CalculiX 2.20 (S8R, 10 elements along, 2 across each wall,
@@ -195,6 +197,64 @@ probes: {tip: {at: beam.end}}
   const double exact = loaded(text, Formulation::cfr, 9, "scene")[2];
   CHECK(exact > 3.5 * 1e-4 / (3 * 7e10 * 1e-11));
   CHECK(loaded(text, Formulation::nlffr, 9, "scene")[2] == Approx(exact).epsilon(2e-3));
+}
+
+// Michell 1899, Timoshenko and Gere: P = 4.0126 sqrt(EI GJ) / L^2. Near it the deflection under a small lateral force
+// is a + b / (1 - P^2 / P_c^2), since the torque is P times the deflection: b and P_c from three loads.
+TEST_CASE("second order: the lateral buckling load of a narrow cantilever, in one frame") {
+  const double closed = 4.0126 * std::sqrt(7e10 * 1e-11 * 2.6e10 * 4e-11);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto deflection = [&](double load) {
+      return loaded(fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 32}}
+    section: {A: 1e-4, Iy: 1e-11, Iz: 1e-5, J: 4e-11, orientation: [0, 1, 0]}
+    material: {E: 7e10, G: 2.6e10, rho: 2700}
+    reduction: {modes: 8, attachment: all, derivatives: all}
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "$P*t", "1e-7*t"]}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: beam.end}}
+)yaml",
+                         {{"P", number(load)}}),
+                    formulation, 2, "scene")[2];
+    };
+    const double x[] = {0.81, 0.9025, 0.9604};  // (P / closed)^2
+    double w[3];
+    for (int i = 0; i < 3; ++i) w[i] = deflection(closed * std::sqrt(x[i]));
+    // (w0 - w1) (c - x0) (c - x1) = b c (x0 - x1), c = (P_c / closed)^2, and likewise of 1 and 2
+    const double ratio = (w[0] - w[1]) * (x[1] - x[2]) / ((w[1] - w[2]) * (x[0] - x[1])),
+                 c = (x[2] - ratio * x[0]) / (1 - ratio);
+    CHECK(closed * std::sqrt(c) == Approx(closed).epsilon(5e-3));
+  }
+}
+
+// In-plane bending of a strip of shells, chord in the plane of rotation: omega^2 = flap^2 - Omega^2, the flap
+// frequencies of a clamped beam by independent converged computation, sqrt(EI / rho A) / L^2 = 100.
+TEST_CASE("second order: edgewise frequencies of a rotating strip of shells") {
+  app::CampbellRequest request;
+  request.speeds = "0,200,600,1200", request.modes = 4;
+  std::exception_ptr fault;
+  const app::CampbellDiagram found = app::campbell(scene::parse_scene(R"yaml(
+bodies:
+  blade:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.01, 0], elements: [20, 1], cells: quadrilaterals}}
+    section: {thickness: 0.003}
+    material: {E: 2.4e12, nu: 0, rho: 2000}
+joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, blade.left]}}
+)yaml",
+                                                                      "scene"),
+                                                   Formulation::nlffr, PETSC_COMM_WORLD, request, fault);
+  if (fault) std::rethrow_exception(fault);
+  const double flap[] = {3.5160153, 4.1373196, 7.3603730, 13.1701505}, gamma[] = {0, 2, 6, 12};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double expected = 100 * std::sqrt(flap[i] * flap[i] - gamma[i] * gamma[i]);
+    double edgewise = 0;  // the flap frequencies are far from it
+    for (const auto& vibration : found.points.at(i).vibrations)
+      if (std::abs(vibration.omega - expected) < std::abs(edgewise - expected)) edgewise = vibration.omega;
+    CHECK(edgewise == Approx(expected).epsilon(3e-3));
+  }
 }
 
 // CalculiX 2.20: S8R, 64 and 16 elements along, 4 across, NLGEOM under the centrifugal force, then its frequencies
