@@ -109,7 +109,7 @@ probes: {tip: {at: strip.right}, bend: {at: strip.right, quantity: rotation}}
 // 20 rad and more, half of them before the joint is locked, a spring that is wound up and a moment by the angle. Angles
 // of the kept states that are counted from the last one's turn are wrong by turns: 77 % of the step, 170 % of the
 // reduction, and no part of the model.
-TEST_CASE("total accuracy: joints in space that turn several times") {
+TEST_CASE("total accuracy: joints in space that make several revolutions") {
   const std::string arm = R"yaml(
 bodies:
   arm:
