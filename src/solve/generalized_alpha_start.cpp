@@ -6,8 +6,8 @@
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
 //   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
 //                   rotations have (generalized_alpha_rotations.cpp)
-//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
-//                   slow motions and 0 for stiff ones; what the constraints see of A' stays
+//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + C shift_v + K, 1
+//                   for slow motions and 0 for stiff and for strongly damped ones; what the constraints see of A' stays
 //   A_0 after events
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
 //                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
@@ -84,7 +84,7 @@ PetscErrorCode differentiate(TS ts, Mat inertia) {
   PetscFunctionReturn(0);
 }
 
-// The Jacobian J(shift_v = 0, shift_a) that was just formed, scaled and made the solver's.
+// The Jacobian that was just formed, scaled and made the solver's.
 PetscErrorCode take_jacobian(TS ts) {
   Mat P;
   KSP ksp;
@@ -197,7 +197,7 @@ PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
   PetscFunctionReturn(0);
 }
 
-// J(shift_v = 0, shift_a) of the state that the step begins with; A: NULL for zero accelerations.
+// J(shift_v, shift_a) of the state that the step begins with; A: NULL for zero accelerations.
 PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   Mat J, P;
@@ -205,7 +205,8 @@ PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
   PetscFunctionBegin;
   if (!A) PetscCall(VecSet(data->work_A, 0));
   PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, 0, data->shift_a, J, P));
+  PetscCall(
+      TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, data->shift_v, data->shift_a, J, P));
   PetscCall(take_jacobian(ts));
   PetscFunctionReturn(0);
 }
@@ -309,7 +310,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(set_scales(ts));
   if (!data->start) PetscCall(accelerations(ts, inertia, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, inertia));
-  PetscCall(take_jacobian(ts));
+  PetscCall(jacobian_of_beginning(ts, data->A0));
   if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(mark_origin(ts));
   PetscCall(resolve_accelerations(ts));
