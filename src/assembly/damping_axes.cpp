@@ -9,6 +9,7 @@
 #include "floe/fem/assembly.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
+#include "floe/plan/hold_by_joint.h"
 #include "floe/scene/joint_events.h"
 
 namespace floe::assembly {
@@ -22,6 +23,21 @@ using Eigen::VectorXd;
 using math::skew;
 
 namespace {
+
+/// Dofs that joints to the ground hold; of a body in a frame that it shares, PlannedBody::constrained has those of the
+/// joint to the body that the frame is of.
+fem::Conditions held_by_ground(const Plan& plan, int b) {
+  if (plan.bodies[b].parent < 0) return plan.bodies[b].constrained;
+  fem::Conditions held;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto& [first, second] = plan.joints[j];
+    const Anchor& place = first.ground() ? second : first;
+    if (first.ground() != second.ground() && place.body == b) hold_place_by_joint(plan, j, place, held);
+  }
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
 
 /// Joints to the ground that are not driven or switched, alone.
 bool firmly_grounded(const Plan& plan, const DampedWhole& whole) {
@@ -56,7 +72,7 @@ std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, cons
     for (int b : whole.bodies) whole.length += fem::extent(plan.bodies[b].structure);
     std::vector<fem::Conditions> by_ground;
     for (int b : whole.bodies) {
-      by_ground.push_back(plan.bodies[b].constrained);
+      by_ground.push_back(held_by_ground(plan, b));
       whole.constrained.push_back(constrained_for_damping(plan, whole.bodies, b));
     }
     whole.split(plan, by_ground);

@@ -333,6 +333,33 @@ probes: {tip: {at: beam.end, quantity: position}}
   CHECK(total(swing.energy.back()) == Approx(total(swing.energy.front())).epsilon(1e-3));
 }
 
+// A blade whose frame is that of the rigid hub at its root: alpha = 20/s would stop it within a tenth of a second.
+TEST_CASE("damping: mass-proportional, a blade on a free rigid hub keeps its spin") {
+  const std::string frame = GENERATE("{type: clamped, at: start}", "mean-axis");
+  const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr, Formulation::cfr);
+  INFO(frame << " " << name_of(formulation));
+  const History at = move(fill(R"yaml(
+bodies:
+  hub: {rigid: {mass: 1, centre: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}, initial: {angular_velocity: [0, 0, 20]}}
+  blade:
+    mesh: {line: {from: [0.2, 0, 0], to: [1.2, 0, 0], elements: 6}}
+    section: {shape: rectangle, width: 0.03, height: 0.006, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    frame: $frame
+    damping: {mass: 20}
+    reduction: {modes: 4}
+    initial: {angular_velocity: [0, 0, 20]}
+joints:
+  shaft: {type: revolute, axis: [0, 0, 1], between: [ground, hub.centre]}
+  root: {type: fixed, between: [{body: hub, node: [0.2, 0, 0]}, blade.start]}
+motion: {end: 0.2, step: 5e-4}
+probes: {spin: {at: blade.start, quantity: angular_velocity}}
+)yaml",
+                               {{"frame", frame}}),
+                          formulation);
+  CHECK(at["spin.z"].back() == Approx(20).epsilon(1e-3));
+}
+
 // Foreshortening is no strain and not damped: with C = beta K one frame gave a third of what four gave. The decay is
 // that of the linear mode, beta omega^2 / 2.
 TEST_CASE("damping: decay of a large deflection is the same in one frame and in several, reduced and full-order") {
