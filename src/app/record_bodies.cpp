@@ -184,6 +184,9 @@ void write_deviation(output::ResultFile& file, const assembly::Model& model, con
   for (const Eigen::VectorXd& d : estimate.deviations) all.insert(all.end(), d.data(), d.data() + d.size());
   file.write_array("estimate/deviation", {rows, width}, all,
                    {"", "estimated error of the reduced coordinates, on the basis and estimate_basis, body by body"});
+  if (const Eigen::VectorXd& d = estimate.deviation_at_start; d.size() > 0)
+    file.write_array("estimate/deviation_at_start", {width}, {d.data(), static_cast<std::size_t>(d.size())},
+                     {"", "the same at the start of the motion, where it is not zero"});
   std::int64_t first = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const assembly::BodyReport& body = model.bodies[b];

@@ -107,6 +107,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
             Estimate& estimate) {
   const dynamics::System& system = *more.system;
   const solve::DeviationStart start = at_start(*reduced.offline, more);
+  if (start.d.size() > 0) estimate.deviation_at_start = deformations(more, start.d);
   std::vector<State> states;
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
   for (const State& state : motion.states()) {  // one after another, as joints count their turns

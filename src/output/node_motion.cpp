@@ -92,7 +92,7 @@ Eigen::MatrixXd NodeMotion::coordinates(const std::string& name, std::span<const
   const Eigen::Index k = std::min<Eigen::Index>(own.empty() ? 0 : static_cast<Eigen::Index>(own[0]), body.coordinates);
   const auto instants = static_cast<Eigen::Index>(rows.size());
   Eigen::Index extra = 0, first = 0;
-  std::vector<double> t, d;
+  std::vector<double> t, d, at_start;
   Eigen::Index width = 0;
   if (corrected && there(file, "bodies/" + name + "/estimate_columns")) {
     const Extent more = series_extent(file, "bodies/" + name + "/estimate_basis");
@@ -102,6 +102,9 @@ Eigen::MatrixXd NodeMotion::coordinates(const std::string& name, std::span<const
     width = static_cast<Eigen::Index>(shape[1]);
     d = read_whole<double>(file, "estimate/deviation", shape);
     t = read_whole<double>(file, "estimate/t", {shape[0]});
+    at_start.assign(shape[1], 0);
+    if (there(file, "estimate/deviation_at_start"))
+      at_start = read_whole<double>(file, "estimate/deviation_at_start", {shape[1]});
   }
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(k + extra, instants);
   for (Eigen::Index i = 0; i < instants; ++i) {
@@ -109,9 +112,8 @@ Eigen::MatrixXd NodeMotion::coordinates(const std::string& name, std::span<const
     all.col(i).head(k) = Eigen::Map<const Eigen::VectorXd>(row.U.data() + body.elastic, k);
     if (d.empty()) continue;
     const auto after = std::lower_bound(t.begin(), t.end(), row.t - 1e-12 * std::abs(row.t));
-    const auto deviation = [&](std::ptrdiff_t at) -> Eigen::VectorXd {  // zero before the first
-      if (at < 0) return Eigen::VectorXd::Zero(k + extra);
-      return Eigen::Map<const Eigen::VectorXd>(d.data() + at * width + first, k + extra);
+    const auto deviation = [&](std::ptrdiff_t at) -> Eigen::VectorXd {
+      return Eigen::Map<const Eigen::VectorXd>((at < 0 ? at_start.data() : d.data() + at * width) + first, k + extra);
     };
     const std::ptrdiff_t next = std::min<std::ptrdiff_t>(after - t.begin(), std::ssize(t) - 1);
     const double before = next > 0 ? t[static_cast<std::size_t>(next - 1)] : source_->times().front();

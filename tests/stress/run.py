@@ -190,6 +190,18 @@ def reduced_against_full_order(folder):
     return error
 
 
+def corrected_from_the_start(folder):
+    """A plate that rests in its equilibrium under a pressure: its stresses are the same at the start and later, corrected."""
+    scene = CLAMPED.replace("motion: {", "motion: {start: equilibrium, ").replace("modes: ", "derivatives: none, modes: ")
+    path, said = recovered(FLOE, folder, scene, "--history", "plate:0.2,0.15", command="run", formulation="vm+md")
+    assert "correction" in said, said
+    stress = table(folder / "out/stress.csv")["plate.1.von_mises"]
+    recovered(FLOE, folder, scene, "--history", "plate:0.2,0.15", "--uncorrected", command="run", formulation="vm+md")
+    plain = table(folder / "out/stress.csv")["plate.1.von_mises"]
+    assert abs(plain[-1] / stress[-1] - 1) > 0.01, (plain[-1], stress[-1])  # the correction counts
+    close(stress, stress[-1] + 0 * stress, 1e-3, "von Mises at rest")
+
+
 def body_from_a_file(folder):
     """The scene from which a file was made has its elements: the same stresses as without the file."""
     shaken = SHAKEN.replace("{type: pressure, body: plate, pressure: \"400*smooth(t, 0, 0.01)\"}",
@@ -335,7 +347,8 @@ def springs_are_no_elements(folder):
 
 
 def main():
-    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, round_bars, large_rotations, reduced_against_full_order, body_from_a_file,
+    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, round_bars, large_rotations, reduced_against_full_order,
+             corrected_from_the_start, body_from_a_file,
              the_same_on_ranks, singular_places, springs_are_no_elements, refusals]
     if shutil.which("ccx"):
         tests.append(lambda folder: calculix.plate_of_second_order(FLOE, folder))

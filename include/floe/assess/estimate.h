@@ -31,6 +31,7 @@ struct Estimate {
   /// [V W] of each body, and of each instant the deviation of the coordinates on these, body by body.
   std::vector<std::shared_ptr<const reduction::Basis>> bases;
   std::vector<Eigen::VectorXd> deviations;
+  Eigen::VectorXd deviation_at_start;  ///< of motions that begin deformed, in an equilibrium or steady; empty: zero
 };
 
 /// What an estimate may take of a run [s]: a tenth of it, or a second.
