@@ -192,17 +192,19 @@ class ModelError {
     }
   }
 
-  /// Where the part is large, and the time allows: what the difference of both models is more than in steps twice
-  /// as long. In coarse steps the errors of both models' steps may be unlike, as those of motions are that only one of
-  /// them has; where steps resolve what both have, they are alike.
+  /// Where the part is large, and the time allows (of steps that were made longer to save time, with half the limit
+  /// more): what the difference of both models is more than in steps twice as long. In coarse steps the errors of both
+  /// models' steps may be unlike, as those of motions are that only one of them has; where steps resolve what both
+  /// have, they are alike.
   /// @return  none: not simulated
   std::optional<ErrorPart> changed_by_steps(Thinning used, const Simulated& plain, const Simulated& one, double end) {
     constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
     const auto large_ones = std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
     const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_);
+    const double limit = used.step > 1 ? std::max(time_.left(), allowed_ / 2) : time_.left();
     const bool useful = time_.of_first(wanted && large_ones > 0) > 0,
-               fits = time_.of_first(needs(twice)) <= time_.left();
+               fits = time_.of_first(needs(twice)) <= time_.of_first(limit);
     if (!useful || !fits) return std::nullopt;
     const std::vector<std::string> notes = part_.notes;
     std::optional<Better> second;
