@@ -116,7 +116,8 @@ Found found_at(const BodyReport& body, const reduction::Statics& statics, const 
   const Vector3d spin = spin_of(body, state);
   const fem::MissingStiffness missing = fem::missing_stiffness(*body.structure, q);
   std::vector<Cause> causes;
-  for (const Cause& cause : {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}})
+  for (const Cause& cause :
+       {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}, {"tension", missing.tension}})
     if (cause.A) causes.push_back(cause);
   if (causes.empty()) return {};
   const reduction::Operator more = more_than_elastic(body, q, spin);
@@ -147,6 +148,12 @@ std::string words(const BodyReport& body, const Found& found) {
     return fmt::format(
         "body {}: second-order coupling of bending and torsion changes the stiffness {} by {} (limit 5 %), and "
         "is not in von Karman's strains: too {}; use strains: second_order, or several frames (frames: N)",
+        body.name, of, number, too);
+  if (found.what == "tension")
+    return fmt::format(
+        "body {}: stiffening of torsion by axial force changes the stiffness {} by {} (limit 5 %), and is not part of "
+        "its "
+        "beams: too {}; use wagner: true in its section (formulation cfr does not have it)",
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "

@@ -143,6 +143,19 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBea
   return to_own.transpose() * A * to_own;
 }
 
+/// Tangent with the Wagner term less that without.
+MatrixXd tension(const Structure& structure, const Mesh::Cell& cell, SpatialBeam beam, const VectorXd& q) {
+  const auto tangent = [&](bool wagner) -> MatrixXd {
+    beam.strain.wagner = wagner;
+    if (cell.kind != CellKind::line3)
+      return spatial_beam(place_of(structure, cell, beam), beam.section, beam.strain).tangent(q);
+    const auto& at = structure.mesh.positions;
+    const BeamCurve curve{at[cell.place[0]], at[cell.place[1]], at[cell.place[2]], beam.orientation};
+    return quadratic_beam(curve, beam.section, beam.strain).tangent(q);
+  };
+  return tangent(true) - tangent(false);
+}
+
 /// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are
 /// none.
 template <class Section, class MatrixOf>
@@ -172,19 +185,24 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
       of_kind<ShellSection>(structure, [&](const Mesh::Cell& cell, const ShellSection& section, const MatrixXd& T) {
         return in_plane(structure, cell, section, all(structure.cell_dofs(cell)), of_corners(cell, T));
       });
-  const auto lacks_coupling = [](const SpatialBeam& beam) { return beam.strain.strains == Strains::von_karman; };
-  if (std::any_of(structure.sections.begin(), structure.sections.end(), [&](const Section& section) {
-        const auto* beam = std::get_if<SpatialBeam>(&section);
-        return beam && lacks_coupling(*beam);
-      }))
-    missing.coupling = of_kind<SpatialBeam>(
+  const auto of_beams = [&](auto&& missing_in, auto&& matrix) -> petsc::MatHandle {
+    if (std::none_of(structure.sections.begin(), structure.sections.end(), [&](const Section& section) {
+          const auto* beam = std::get_if<SpatialBeam>(&section);
+          return beam && missing_in(*beam);
+        }))
+      return {};
+    return of_kind<SpatialBeam>(
         structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) -> MatrixXd {
           const VectorXd own = of_corners(cell, T);
-          if (!lacks_coupling(beam)) return MatrixXd::Zero(own.size(), own.size());
-          if (beam.releases.none()) return coupling(structure, cell, beam, own);
+          if (!missing_in(beam)) return MatrixXd::Zero(own.size(), own.size());
+          if (beam.releases.none()) return matrix(structure, cell, beam, own);
           const Matrix12 to_ends = released(place_of(structure, cell, beam), beam.section, beam.releases);
-          return to_ends.transpose() * coupling(structure, cell, beam, to_ends * own) * to_ends;
+          return to_ends.transpose() * matrix(structure, cell, beam, to_ends * own) * to_ends;
         });
+  };
+  missing.coupling =
+      of_beams([](const SpatialBeam& beam) { return beam.strain.strains == Strains::von_karman; }, coupling);
+  missing.tension = of_beams([](const SpatialBeam& beam) { return !beam.strain.wagner; }, tension);
   return missing;
 }
 
