@@ -71,6 +71,9 @@ void check_events(Document& document, const Scene& scene) {
     if (event.at && scene.motion.end > 0 && *event.at > scene.motion.end) {
       where.key += ".at";
       document.fault(where, fmt::format("is {}", *event.at), fmt::format("at most motion.end, {}", scene.motion.end));
+    } else if (event.at && event.kind == Event::Kind::stop && *event.at <= 1e-12 * scene.motion.end) {
+      where.key += ".at";
+      document.fault(where, fmt::format("is {}", *event.at), "a time after the start");
     }
     if (event.probe.empty()) continue;
     where.key += ".probe";

@@ -476,6 +476,9 @@ OPTIONS = [
           options=("-motion_ts_type", "alpha2"), check=no_results,
           says=("-motion_ts_type alpha2: does not interpolate within steps, where the time of event enough is found",),
           changes={"events": {"enough": {"stop": True, "probe": "tip.y", "crosses": 2e-4}}}),
+    *case("an event stops the motion before it begins", codes=2, lines=1, check=no_results,
+          says=("events.none.at: is 0; expected a time after the start",),
+          changes={"events": {"none": {"stop": True, "at": 0}}}),
     *case("spectral radius 1", codes=2, lines=1, options=("-motion_ts_generalized_alpha_radius", "1"),
           says=("spectral radius",)),
 ]
