@@ -13,7 +13,7 @@ void require(bool good, const char* fault) {
   if (!good) throw InputError(fault);
 }
 
-void check(const Ply& ply) {
+void check_ply(const Ply& ply) {
   const ShellMaterial& m = ply.material;
   require(std::isfinite(ply.thickness) && ply.thickness > 0, "a shell's thickness must be positive");
   require(std::isfinite(ply.angle), "a ply's angle must be finite");
@@ -77,7 +77,7 @@ ShellSection shell_section(const std::vector<Ply>& plies, double offset, const E
   double thickness = 0, shear = 0;
   bool directed = false;
   for (const Ply& ply : plies) {
-    check(ply);
+    check_ply(ply);
     thickness += ply.thickness;
     shear += 5. / 6 * ply.material.G12 * ply.thickness;
     directed = directed || !is_isotropic(ply.material);

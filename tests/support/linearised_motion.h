@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "eigenvalues.h"
 #include "scene_motion.h"
 
 namespace floe::test {
@@ -52,7 +53,7 @@ inline std::vector<std::complex<double>> characteristic_exponents(const dynamics
   first_order.topRightCorner(n, n).setIdentity();
   first_order.bottomLeftCorner(n, n) = -mass.solve(Z.transpose() * K(free, free) * Z);
   first_order.bottomRightCorner(n, n) = -mass.solve(Z.transpose() * C(free, free) * Z);
-  const Eigen::VectorXcd s = Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false).eigenvalues();
+  const Eigen::VectorXcd s = testing::complex_eigenvalues(first_order);
   return {s.data(), s.data() + s.size()};
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "eigenvalues.h"
 #include "floe/fem/quadratic_shell.h"
 #include "random.h"
 
@@ -224,9 +225,9 @@ inline Eigen::VectorXd frequencies(const Plate& p, const fem::ShellSection& sect
   Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
   for (int round = 0; round < 60; ++round) {
     const Eigen::MatrixXd MX = M * X, Y = factor.solve(MX), MY = M * Y;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> small(Y.transpose() * MX, Y.transpose() * MY);
-    X = Y * small.eigenvectors();
-    const Eigen::VectorXd now = small.eigenvalues().head(count).cwiseSqrt();
+    const Eigen::MatrixXd small = Y.transpose() * MX, inertia = Y.transpose() * MY;
+    X = Y * eigenvectors(small, inertia);
+    const Eigen::VectorXd now = eigenvalues(small, inertia).head(count).cwiseSqrt();
     if ((now - before).cwiseAbs().maxCoeff() < 1e-10 * now[count - 1]) return now;
     before = now;
   }

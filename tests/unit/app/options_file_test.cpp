@@ -8,11 +8,11 @@
 
 namespace {
 
-using Words = std::vector<std::string>;
+using OptionWords = std::vector<std::string>;
 
 /// The only fault of the words; they are changed.
-std::string fault_of(Words& words) {
-  const Words faults = app::take_bad_option_files(words);
+std::string fault_of(OptionWords& words) {
+  const OptionWords faults = app::take_bad_option_files(words);
   REQUIRE(faults.size() == 1);
   return faults.front();
 }
@@ -20,7 +20,7 @@ std::string fault_of(Words& words) {
 /// PETSc's own table has these while this lives.
 class Given {
  public:
-  explicit Given(const Words& options) : options_(options) {
+  explicit Given(const OptionWords& options) : options_(options) {
     for (const std::string& option : options) {
       const auto space = option.find(' ');
       petsc::check(PetscOptionsSetValue(nullptr, option.substr(0, space).c_str(),
@@ -33,7 +33,7 @@ class Given {
   }
 
  private:
-  Words options_;
+  OptionWords options_;
 };
 
 }  // namespace
@@ -42,8 +42,8 @@ TEST_CASE("options files: what PETSc would abort at is named with file and line,
   const OwnFolder own;
   const std::string well =
       own.write("well", "# a comment\n-motion_ts_dt 0.1 # behind\n\n-log_view \"a b\"\nalias -a -b\n");
-  Words words = {"floe", "-options_file", well, "-motion_snes_monitor"};
-  const Words before = words;
+  OptionWords words = {"floe", "-options_file", well, "-motion_snes_monitor"};
+  const OptionWords before = words;
   CHECK(app::take_bad_option_files(words).empty());
   CHECK(words == before);
   const std::vector<std::pair<std::string, std::string>> lines = {
@@ -58,21 +58,21 @@ TEST_CASE("options files: what PETSc would abort at is named with file and line,
     const std::string file = own.write("bad", "-fine\n" + line + "\nalso bad\n");
     words = {"floe", "-options_file", file, "-log_view"};
     CHECK_THAT(fault_of(words), Contains(file + ":2: " + says));
-    CHECK(words == Words{"floe", "-log_view"});
+    CHECK(words == OptionWords{"floe", "-log_view"});
   }
 }
 
 TEST_CASE("options files that cannot be read, and options in YAML, are refused") {
   const OwnFolder own;
-  Words words = {"floe", "-options_file"};
+  OptionWords words = {"floe", "-options_file"};
   CHECK_THAT(fault_of(words), Contains("-options_file: has no file after it"));
   words = {"floe", "-options_file", "-log_view"};
   CHECK_THAT(fault_of(words), Contains("-options_file: has no file after it"));
-  CHECK(words == Words{"floe", "-log_view"});
+  CHECK(words == OptionWords{"floe", "-log_view"});
   for (const std::string& file : {std::string(own.path / "none"), own.write("empty", "")}) {
     words = {"floe", "-options_file", file};
     CHECK_THAT(fault_of(words), Contains(file + " cannot be read, or is empty"));
-    CHECK(words == Words{"floe"});
+    CHECK(words == OptionWords{"floe"});
   }
   for (const char* option : {"-options_file_yaml", "-options_string_yaml"}) {
     words = {"floe", option, "a: 1"};
@@ -86,9 +86,9 @@ TEST_CASE("options files: PETSc's own of the user is judged, unless it is skippe
   const std::string home = given ? given : "";
   setenv("HOME", own.path.c_str(), 1);
   own.write(".petscrc", "-log_view\nbad\n");
-  Words words = {"floe"};
+  OptionWords words = {"floe"};
   CHECK_THAT(fault_of(words), Contains(".petscrc:2: \"bad\" is not an option"));
-  CHECK(words == Words{"floe", "-skip_petscrc"});
+  CHECK(words == OptionWords{"floe", "-skip_petscrc"});
   CHECK(app::take_bad_option_files(words).empty());
   setenv("HOME", home.c_str(), 1);
 }
@@ -118,7 +118,7 @@ TEST_CASE("options of a command line: faults before the work, a fault of the wor
 }
 
 TEST_CASE("a fault lists eight of the options at most") {
-  Words many;
+  OptionWords many;
   for (int i = 1; i <= 9; ++i)
     many.push_back("-derivatives_mat_mumps_icntl_" + std::to_string(i > 4 ? i + 5 : i) + " 1");
   const Given given(many);

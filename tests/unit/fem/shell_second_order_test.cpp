@@ -140,7 +140,8 @@ double lag(double gamma) {
 
 // Reference: CalculiX 2.20, NLGEOM, S8R, 20 x 4 (4 %) and 20 x 2 (10 %) elements a side, root clamped, the force shared
 // evenly along the edge of the end: 0.041562 and 0.103957.
-TEST_CASE("second order: a square tube of ten sides bends as CalculiX has it, by 4 % and 10 % of its length") {
+TEST_CASE("second order: a square tube of ten sides bends as CalculiX has it, by 4 % and 10 % of its length",
+          "[long]") {
   const double four = free_end(Strains::second_order, 10, 40, 4, 0.04),
                ten = free_end(Strains::second_order, 10, 40, 4, 0.1);
   CHECK(four == Approx(0.041562).epsilon(0.005));
@@ -153,7 +154,7 @@ TEST_CASE("second order: a square tube of ten sides bends as CalculiX has it, by
 // order -1.6 % (against a cap that is not quite rigid) and +6.2 % are left, as the square of the rotation. Strains e(T
 // q, R(q, q)) of third order are dropped. Until the drilling of corners was relative to rotated walls, walls that were
 // too stiff hid a part of that: +3.6 %.
-TEST_CASE("second order: a tube with a rigid end, bent by a fifth of its length and twisted by 0.2 rad") {
+TEST_CASE("second order: a tube with a rigid end, bent by a fifth of its length and twisted by 0.2 rad", "[long]") {
   VectorXd force = VectorXd::Zero(6), moment = VectorXd::Zero(6);
   force[2] = tip_force(10, 0.2), moment[3] = 0.2 * 7e10 / 2.6 * 0.05 / 10;
   const auto against_linear = [](End end, const VectorXd& load, int dof) {
@@ -173,7 +174,7 @@ TEST_CASE("second order: a tube with a rigid end, bent by a fifth of its length 
 }
 
 // lag^2 = flap^2 - gamma^2; flap of a clamped beam, hub radius 0: 4.1373196, 13.1701505 at gamma = 2, 12.
-TEST_CASE("second order: rotation stiffens a strip against bending in its own plane") {
+TEST_CASE("second order: rotation stiffens a strip against bending in its own plane", "[long]") {
   CHECK(lag(0) == Approx(3.5160153).epsilon(0.005));
   CHECK(lag(2) == Approx(3.6218).epsilon(0.005));
   CHECK(lag(5) == Approx(4.0738).epsilon(0.005));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "eigenvalues.h"
 #include "floe/fem/spatial_beam.h"
 #include "floe/fem/transform.h"
 
@@ -112,8 +113,8 @@ inline Eigen::VectorXd nonlinear_deflection(const BeamChain& chain, const Eigen:
 
 /// Lowest natural frequencies [rad/s], ascending. K is definite, M may be only semi-definite: 1/omega^2 of (M, K).
 inline Eigen::VectorXd chain_frequencies(const BeamChain& chain) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(chain_mass(chain), chain_stiffness(chain));
-  return eigen.eigenvalues().reverse().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
+  const Eigen::VectorXd lambda = eigenvalues(chain_mass(chain), chain_stiffness(chain));
+  return lambda.reverse().cwiseMax(1e-300).cwiseInverse().cwiseSqrt();
 }
 
 }  // namespace floe::testing

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "differences.h"
+#include "eigenvalues.h"
 #include "floe/fem/spatial_beam.h"
 #include "random.h"
 #include "spatial_beam_chain.h"
@@ -57,7 +58,7 @@ double critical(const testing::BeamChain& chain, const Load& load) {
     for (std::size_t e = 0; e < chain.elements.size(); ++e)
       K.block<12, 12>(6 * e, 6 * e) += chain.elements[e].tangent(q.segment<12>(6 * e));
     const MatrixXd free = K(chain.free, chain.free);
-    return Eigen::SelfAdjointEigenSolver<MatrixXd>(free, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0;
+    return testing::eigenvalues(free)[0] > 0;
   };
   double low = 0.5, high = 1.5;
   while (high - low > 1e-4) (stable((low + high) / 2) ? low : high) = (low + high) / 2;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bodies.h"
+#include "eigenvalues.h"
 
 using namespace floe;
 using Eigen::VectorXd;
@@ -155,9 +156,9 @@ TEST_CASE("full derivatives are the derivatives of the modes of the deformed bod
     if (!std::count(constrained.begin(), constrained.end(), dof)) free.push_back(dof);
   const auto mode = [&](int i, const VectorXd& q) -> VectorXd {
     const Eigen::MatrixXd K = testing::FullElasticity(s, q).tangent;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K(free, free), M(free, free));
+    const Eigen::MatrixXd vectors = testing::eigenvectors(K(free, free), M(free, free));
     VectorXd phi = VectorXd::Zero(n);
-    phi(free) = eigen.eigenvectors().col(i);
+    phi(free) = vectors.col(i);
     return phi.dot(everywhere(modes.raw[i])) < 0 ? VectorXd(-phi) : phi;
   };
   for (std::size_t p = 0; p < theta.size(); ++p) {

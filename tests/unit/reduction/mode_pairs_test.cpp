@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "bodies_in_space.h"
+#include "eigenvalues.h"
 #include "options.h"
 
 using namespace floe;
@@ -33,10 +34,10 @@ std::vector<double> dense_values(const SpatiallyConstrained& body) {
   const fem::Conditions& constrained = body.holding.constrained;
   const MatrixXd M = testing::dense(body.structure, fem::mass(body.structure, constrained)),
                  K = testing::dense(body.structure, fem::stiffness(body.structure, constrained)) + M;  // shifted by one
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(M, K, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd ratios = testing::eigenvalues(M, K);
   std::vector<double> lambda;
   for (Eigen::Index i = K.cols(); i-- > 0;)
-    if (const double theta = pairs.eigenvalues()[i]; theta > 1e-12 && theta < 1 - 1e-6) lambda.push_back(1 / theta - 1);
+    if (const double theta = ratios[i]; theta > 1e-12 && theta < 1 - 1e-6) lambda.push_back(1 / theta - 1);
   return lambda;
 }
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "bodies_in_space.h"
+#include "eigenvalues.h"
 #include "floe/reduction/derivatives.h"
 
 using namespace floe;
@@ -113,9 +114,9 @@ TEST_CASE("full derivatives in space are the derivatives of the modes of the def
     const auto [i, j] = which[p];
     const MatrixXd dK = first_order(modes.shapes[j]);
     const auto mode = [&, i = i](double eta) -> VectorXd {
-      const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen((K + eta * dK)(free, free), M(free, free));
+      const Eigen::MatrixXd vectors = testing::eigenvectors((K + eta * dK)(free, free), M(free, free));
       VectorXd phi = VectorXd::Zero(s.dofs());
-      phi(free) = eigen.eigenvectors().col(i);
+      phi(free) = vectors.col(i);
       return phi.dot(testing::everywhere(modes.raw[i])) < 0 ? VectorXd(-phi) : phi;
     };
     INFO(i << "," << j);

@@ -1,8 +1,8 @@
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "corotational_chain.h"
+#include "eigenvalues.h"
 
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
@@ -12,9 +12,9 @@ namespace {
 /// Angular frequencies about rest, ascending.
 ArrayXd frequencies(const CorotationalChain& chain) {
   const VectorXd zero = chain.zero();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      chain.tangent(zero, zero, zero, {1, 0, 0}), chain.tangent(zero, zero, zero, {0, 0, 1}), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().array().sqrt();
+  const Eigen::VectorXd lambda = floe::testing::eigenvalues(chain.tangent(zero, zero, zero, {1, 0, 0}),
+                                                            chain.tangent(zero, zero, zero, {0, 0, 1}));
+  return lambda.array().sqrt();
 }
 
 }  // namespace

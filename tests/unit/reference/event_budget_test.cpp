@@ -112,7 +112,7 @@ struct Parts {
 }  // namespace
 
 // Against corotational elements a quarter as long in an eighth of the step.
-TEST_CASE("error budget: parts and total of a motion whose joints change") {
+TEST_CASE("error budget: parts and total of a motion whose joints change", "[long]") {
   struct Case {
     const char* text;
     std::string when;
@@ -145,7 +145,7 @@ TEST_CASE("error budget: parts and total of a motion whose joints change") {
 // Without damping the release sets vibrations free that the steps do not resolve, in either model alike: the part of
 // the step is nearly the whole. Where one model alone was extrapolated to steps of no length, parts of model and step
 // cancelled in the total (0.3 of the error).
-TEST_CASE("error budget: the total where steps resolve neither model") {
+TEST_CASE("error budget: the total where steps resolve neither model", "[long]") {
   const char* const arms = R"yaml(
 gravity: [0, -9.81]
 bodies:

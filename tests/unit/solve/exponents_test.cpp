@@ -1,8 +1,9 @@
 #include "../../../src/solve/exponents.h"
 
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <cmath>
+
+#include "eigenvalues.h"
 
 using namespace floe::solve;
 using Complex = std::complex<double>;
@@ -18,7 +19,7 @@ Exponents of_companion(const Quadratic& problem) {
   T.topRightCorner(n, n).setIdentity();
   T.bottomLeftCorner(n, n) = -problem.M.partialPivLu().solve(problem.K);
   T.bottomRightCorner(n, n) = -problem.M.partialPivLu().solve(problem.C);
-  const Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(T, false).eigenvalues();
+  const Eigen::VectorXcd values = testing::complex_eigenvalues(T);
   return {values.begin(), values.end()};
 }
 

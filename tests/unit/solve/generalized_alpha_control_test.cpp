@@ -3,7 +3,7 @@
 
 #include "generalized_alpha_problem.h"
 
-using namespace floe::solve::testing;
+using namespace floe::solve::problems;
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include "generalized_alpha_problem.h"
 
 using namespace floe::solve;
-using namespace floe::solve::testing;
+using namespace floe::solve::problems;
 
 // The same system on one rank with a dense Jacobian and on all ranks with a sparse one (MUMPS). Runs on any number of
 // ranks.

@@ -6,7 +6,7 @@
 #include "floe/petsc/handle.h"
 #include "floe/solve/generalized_alpha.h"
 
-namespace floe::solve::testing {
+namespace floe::solve::problems {
 
 using petsc::check;
 using Numbers = std::vector<double>;
@@ -81,7 +81,7 @@ inline PetscErrorCode tangent(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal sv
   return 0;
 }
 
-inline PetscErrorCode start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
+inline PetscErrorCode call_start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
   Numbers u = numbers(U), a(u.size(), 0.0);
   static_cast<Problem*>(context)->start(t, u.data(), numbers(V).data(), a.data());
   fill(U, u);
@@ -116,7 +116,7 @@ inline Run::Run(const Problem& of, Numbers u0, Numbers v0, double h, double end)
   check(TSSetI2Function(ts, nullptr, residual, &problem));
   check(TSSetI2Jacobian(ts, J, J, tangent, &problem));
   check(TS2SetSolution(ts, U, V));
-  if (problem.start) check(TSGeneralizedAlphaSetStart(ts, start, &problem));
+  if (problem.start) check(TSGeneralizedAlphaSetStart(ts, call_start, &problem));
   if (!problem.multipliers.empty()) {
     petsc::IsHandle multipliers;
     check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(problem.multipliers.size()),
@@ -194,4 +194,4 @@ inline Problem oscillator(
   return p;
 }
 
-}  // namespace floe::solve::testing
+}  // namespace floe::solve::problems

@@ -6,7 +6,7 @@
 
 using namespace floe::dynamics;
 using namespace floe::solve;
-using namespace floe::solve::testing;
+using namespace floe::solve::problems;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using floe::testing::Rotating;

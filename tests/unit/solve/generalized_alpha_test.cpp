@@ -4,7 +4,7 @@
 #include "generalized_alpha_problem.h"
 
 using namespace floe::solve;
-using namespace floe::solve::testing;
+using namespace floe::solve::problems;
 
 namespace {
 
