@@ -170,3 +170,27 @@ TEST_CASE("generalized-alpha: interpolation between steps is as good as the step
   CHECK(std::log2(q_coarse / q_fine) / 2 == Approx(2).margin(0.2));
   CHECK(std::log2(lambda_coarse / lambda_fine) / 2 == Approx(2).margin(0.3));
 }
+
+// a + c (v - 1 - t) = 0, c h = 1e3, from rest: v follows 1 + t; a alternates, and h a is greater than v.
+TEST_CASE("generalized-alpha: rates between steps of a strongly damped motion do not leave those at the steps") {
+  const double c = 1e5, h = 0.01;
+  Problem damper;
+  damper.size = 1;
+  damper.residual = [c](double t, const double*, const double* v, const double* a, double* f) {
+    f[0] = a[0] + c * (v[0] - 1 - t);
+  };
+  damper.tangent = [c](double, const double*, const double*, const double*, double sv, double sa, double* J) {
+    J[0] += sa + c * sv;
+  };
+  Run run(damper, {0}, {0}, h, 24 * h);
+  run.solve();
+  REQUIRE(run.v.size() == 24);
+  const double v0 = run.v[22][0], v1 = run.v[23][0];
+  CHECK(v1 == Approx(1.24).margin(0.02));
+  CHECK(std::abs(run.a[23][0] - run.a[22][0]) * h / 8 > 0.2);  // what a cubic polynomial would add
+  const auto U = vector({0}), V = vector({0}), A = vector({0});
+  for (const double x : {0.25, 0.5, 0.75}) {
+    check(floe::solve::TSGeneralizedAlphaInterpolate(run.ts, (23 + x) * h, U, V, A));
+    CHECK(numbers(V)[0] == Approx(v0 + x * (v1 - v0)).margin(0.07 * v1));
+  }
+}
