@@ -16,6 +16,7 @@ namespace floe::assess {
 namespace {
 
 constexpr double min_step_seconds = 2e-6;  // processor time of a step of cfr or nlffr, for each element [s]
+constexpr double large = 0.01;             // error of a probe
 constexpr PetscInt slow_steps = 5;         // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
@@ -198,7 +199,6 @@ class ModelError {
   /// have, they are alike.
   /// @return  none: not simulated
   std::optional<ErrorPart> changed_by_steps(Thinning used, const Simulated& plain, const Simulated& one, double end) {
-    constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
     const auto large_ones = std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
     const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_);
@@ -214,9 +214,10 @@ class ModelError {
       own_second = own_motion(twice, end);
     });
     part_.notes = notes;
-    if (!why.empty()) return std::nullopt;  // the part stands
-    const bool good = resolved(second->event_error), short_of = time_.of_first(second->reached - 0.98 * end) < 0;
-    if (!good || short_of) return std::nullopt;
+    const bool reached =
+        why.empty() && resolved(second->event_error) && time_.of_first(second->reached - 0.98 * end) >= 0;
+    if (!reached && used.step > 1) leave_out_unchecked();
+    if (!reached) return std::nullopt;  // the part stands
     ErrorPart of_own, change;
     set_errors(own_, one, own_second, 1, {}, of_own);
     set_errors(own_, plain, second->probes, 1, of_own.errors, change);
@@ -225,23 +226,35 @@ class ModelError {
     return change;
   }
 
+  /// Large errors of probes in steps that were made longer to save time, where steps twice as long cannot be computed:
+  /// nothing shows that the steps resolve them.
+  void leave_out_unchecked() {
+    leave_out(
+        [&](std::size_t p) { return part_.probes[p] > large; },
+        "the steps are longer than those of the motion, and whether they resolve the difference to formulation cfr "
+        "is not known, because steps twice as long fail");
+  }
+
   /// Probes of which steps twice as long change the difference of both models by more than half of the part: steps do
   /// not resolve it.
   void leave_out_unresolved(const ErrorPart& change) {
-    constexpr double large = 0.01, unknown = std::numeric_limits<double>::quiet_NaN();
+    leave_out([&](std::size_t p) { return part_.probes[p] > large && change.probes[p] > part_.probes[p] / 2; },
+              "steps twice as long change the difference to formulation cfr by more than half of this part");
+  }
+
+  void leave_out(const std::function<bool(std::size_t)>& which, const std::string& why) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     std::vector<std::string> names;
     for (std::size_t c = 0, p = 0; c < own_.columns.size(); ++p) {
       const std::string name = probe_of(own_.columns[c]);
-      const bool unresolved = part_.probes[p] > large && change.probes[p] > part_.probes[p] / 2;
+      const bool unresolved = which(p);
       if (unresolved) names.push_back(name), part_.probes[p] = unknown;
       for (; c < own_.columns.size() && probe_of(own_.columns[c]) == name; ++c)
         for (std::size_t i = 0; unresolved && i < part_.errors.size(); ++i) part_.errors[i][c] = unknown;
     }
     if (!names.empty())
-      part_.notes.push_back(fmt::format(
-          "steps twice as long change the difference to formulation cfr by more than half of this part: {} {} left "
-          "out; take a smaller motion.step",
-          fmt::join(names, ", "), names.size() > 1 ? "are" : "is"));
+      part_.notes.push_back(fmt::format("{}: {} {} left out; take a smaller motion.step", why, fmt::join(names, ", "),
+                                        names.size() > 1 ? "are" : "is"));
   }
 
   /// The part without its errors, and with the notes before them.
