@@ -29,8 +29,8 @@ struct GeneralizedAlpha {
 
   // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
   // is away from v(t_n) normal to the constraints.
-  PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
-  PetscReal h_start = 0;  // the step that they were made for
+  PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE, smoothed = PETSC_FALSE;  // smoothed: after a change of h
+  PetscReal h_start = 0;                                                           // the step that they were made for
   Vec jerk = nullptr, normal = nullptr;
 
   // A before the last event, and its time; of events that follow each other within the coming step, the first. Of a

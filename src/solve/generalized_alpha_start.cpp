@@ -15,7 +15,8 @@
 //                   Also later, where a step of a constrained system is longer than the time since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
-// grows while steps shrink.
+// grows while steps shrink. Only what the step resolves: of stiff and of strongly damped motions A is far greater than
+// the a that the scheme goes on with, and starting from A in every step would let them grow.
 
 namespace floe::solve {
 namespace {
@@ -269,8 +270,8 @@ PetscErrorCode rows_along_velocity(TS ts, PetscReal e, Vec F) {
   PetscFunctionReturn(0);
 }
 
-// V0 loses what violates dC/dt = 0, a central difference along the velocity (error e^2, e = h/100).
-PetscErrorCode project_velocity(TS ts) {
+// V0 loses a share of what violates dC/dt = 0, a central difference along the velocity (error e^2, e = h/100).
+PetscErrorCode project_velocity(TS ts, PetscReal share) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal e = 0.01 * data->h;
 
@@ -279,7 +280,51 @@ PetscErrorCode project_velocity(TS ts) {
   PetscCall(rows_along_velocity(ts, -e, data->work_A));
   PetscCall(VecAXPBY(data->work_F, -0.5 / e, 0.5 / e, data->work_A));
   PetscCall(solve_constraint_rows(ts, data->work_F, data->work_V));
-  PetscCall(VecAXPY(data->V0, -1, data->work_V));
+  PetscCall(VecAXPY(data->V0, -share, data->work_V));
+  PetscFunctionReturn(0);
+}
+
+// How much of A - a, which is h shift A' of smooth motions, the step resolves, squared, in the norm of M. Where stiff
+// or strongly damped motions are in it, A' is theirs, and what the constraints see of that is noise.
+PetscErrorCode resolved_share(TS ts, PetscReal* share) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal whole, lost;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, -1, data->a0, data->A0));
+  PetscCall(VecCopy(data->work_U, data->V1));
+  PetscCall(inertia_norm(ts, 1, data->V1, &whole));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Change of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
+  PetscCall(inertia_norm(ts, 1, data->V1, &lost));
+  *share = whole > 0 ? PetscMax(0, 1 - 5 * lost / whole) : 1;
+  PetscFunctionReturn(0);
+}
+
+// After resolve_jerk, A' such that a_n = A_n - h shift A' (fresh_rates) is that of a start in what the step resolves,
+// and in the rest the scheme's own a, which follows the size of the step: a_n = a + R (A_n - h shift A'_resolved - a).
+PetscErrorCode keep_unresolved(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal shift = data->h * (data->alpha_f - data->alpha_m), ratio = PetscMin(data->h / data->h_a0, 2);
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  {
+    const Entries A(data->A0), a(data->a0), jerk(data->jerk);
+    Changed change(data->work_U);
+    for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) change[i] = ratio * (A[i] - a[i]) - shift * jerk[i];
+  }
+  for (PetscInt twice = 0; twice < 2; ++twice) {
+    PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+    PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+               "Change of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  }
+  const Entries A(data->A0), a(data->a0), change(data->work_U);
+  Changed jerk(data->jerk);
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) jerk[i] = (ratio * (A[i] - a[i]) - change[i]) / shift;
   PetscFunctionReturn(0);
 }
 
@@ -317,6 +362,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
+  data->smoothed = PETSC_FALSE;
   data->h_start = data->h;
   data->equal_steps = 0;
   data->unresolved = PETSC_FALSE;
@@ -326,17 +372,21 @@ PetscErrorCode start_consistently(TS ts) {
 
 PetscErrorCode smooth_rates(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscReal share;
 
   PetscFunctionBegin;
   PetscCall(set_scales(ts));
   PetscCall(jacobian_of_beginning(ts, data->A0));
-  PetscCall(project_velocity(ts));
+  PetscCall(resolved_share(ts, &share));
+  PetscCall(project_velocity(ts, share));
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
+  PetscCall(VecScale(data->normal, share));
   PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
-  data->fresh = PETSC_TRUE;
+  PetscCall(keep_unresolved(ts));
+  data->fresh = data->smoothed = PETSC_TRUE;
   data->h_start = data->h;
   data->equal_steps = 0;
   PetscFunctionReturn(0);

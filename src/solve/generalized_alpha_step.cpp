@@ -64,7 +64,7 @@ PetscErrorCode prepare(TS ts, PetscReal h) {
   set_step(data, h);
   if (PetscAbsReal(h - data->h_a0) > 1e-9 * data->h_a0) data->equal_steps = 0;
   if (data->fresh && PetscAbsReal(h - data->h_start) > 1e-6 * data->h_start)
-    PetscCall(start_consistently(ts));
+    PetscCall(data->smoothed ? smooth_rates(ts) : start_consistently(ts));
   else if (!data->fresh && data->multipliers && PetscAbsReal(h - data->h_a0) > 1e-6 * data->h_a0)
     PetscCall(smooth_rates(ts));
   else if (PetscAbsReal(h - data->h_scale) > 0.05 * data->h_scale)
@@ -322,18 +322,8 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
   PetscFunctionReturn(0);
 }
 
-// A rate between its values v0 and v1, cubic with the derivatives a0 and a1. Of motions that are damped much faster
-// than the step these alternate from step to step: what they add to the straight line is at most a sixteenth of the
-// rate, which vibrations of nine and more steps a period do not reach.
-static PetscReal between(PetscReal x, PetscReal h, PetscReal v0, PetscReal v1, PetscReal a0, PetscReal a1) {
-  const PetscReal mean = (v1 - v0) / h, d0 = a0 - mean, d1 = a1 - mean;
-  const PetscReal most = PetscMax(PetscMax(PetscAbsReal(v0), PetscAbsReal(v1)), PetscAbsReal(v1 - v0)) / (4 * h);
-  const PetscReal greatest = PetscMax(PetscAbsReal(d0), PetscAbsReal(d1));
-  const PetscReal share = greatest > most ? most / greatest : 1;
-  return v0 + x * (v1 - v0) + share * h * x * (1 - x) * ((1 - x) * d0 - x * d1);
-}
-
-// Rates likewise, between V0 and V1 with the derivatives A0 and A1, which are interpolated linearly.
+// Rates: quadratic between V0 and V1, their second derivative by the change of the auxiliary accelerations. A itself
+// alternates from step to step where motions are damped much faster than a step; its mean, a, hardly does.
 PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V_vec, Vec A_vec) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
@@ -345,10 +335,11 @@ PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V_vec, Vec A_vec) 
     PetscFunctionReturn(0);
   }
   const Entries V0(data->V0), V1(data->V1), A0(data->A0), A1(data->A1), dynamic(data->dynamic);
+  const Entries a0(data->a_used), a1(data->a1);
   Changed V(V_vec), A(A_vec);
   const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h;
   for (PetscInt i = 0, n = local_size(V_vec); i < n; ++i) {
-    V[i] = dynamic[i] * between(x, h, V0[i], V1[i], A0[i], A1[i]);
+    V[i] = dynamic[i] * (V0[i] + x * (V1[i] - V0[i]) - h * x * (1 - x) * (a1[i] - a0[i]) / 2);
     A[i] = A0[i] + x * (A1[i] - A0[i]);
   }
   PetscFunctionReturn(0);

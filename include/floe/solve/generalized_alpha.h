@@ -64,9 +64,9 @@ PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);
 /// then on. 0 for other steps, with adaptive steps and for other types.
 PetscErrorCode TSGeneralizedAlphaGetEventError(TS ts, PetscReal* error);
 
-/// U and its rates V within the last step, cubic polynomials between its ends (errors of fourth order in the step,
-/// rates of motions that it does not resolve between straight lines and these); multipliers in U are linear, and zero
-/// in V. A is linear. Rotations are relative to the base that the step's end has.
+/// U and its rates V within the last step, a cubic and a quadratic polynomial between its ends (errors of fourth and
+/// third order in the step); multipliers in U are linear, and zero in V. A is linear. Rotations are relative to the
+/// base that the step's end has.
 PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V, Vec A);
 
 }  // namespace floe::solve
