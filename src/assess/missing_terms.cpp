@@ -152,8 +152,7 @@ std::string words(const BodyReport& body, const Found& found) {
   if (found.what == "tension")
     return fmt::format(
         "body {}: stiffening of torsion by axial force changes the stiffness {} by {} (limit 5 %), and is not part of "
-        "its "
-        "beams: too {}; use wagner: true in its section (formulation cfr does not have it)",
+        "its beams: too {}; use wagner: true in their section",
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "

@@ -143,17 +143,26 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBea
   return to_own.transpose() * A * to_own;
 }
 
-/// Tangent with the Wagner term less that without.
+/// What the axial force at q, which these strains have, does on the Wagner term.
 MatrixXd tension(const Structure& structure, const Mesh::Cell& cell, SpatialBeam beam, const VectorXd& q) {
-  const auto tangent = [&](bool wagner) -> MatrixXd {
+  const auto maps = [&](bool wagner) {
     beam.strain.wagner = wagner;
-    if (cell.kind != CellKind::line3)
-      return spatial_beam(place_of(structure, cell, beam), beam.section, beam.strain).tangent(q);
+    if (cell.kind != CellKind::line3) return spatial_beam(place_of(structure, cell, beam), beam.section, beam.strain);
     const auto& at = structure.mesh.positions;
     const BeamCurve curve{at[cell.place[0]], at[cell.place[1]], at[cell.place[2]], beam.orientation};
-    return quadratic_beam(curve, beam.section, beam.strain).tangent(q);
+    return quadratic_beam(curve, beam.section, beam.strain);
   };
-  return tangent(true) - tangent(false);
+  const ElementMaps without = maps(false), with = maps(true);
+  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  for (std::size_t g = 0; g < without.membrane.size(); ++g) {
+    const VectorXd stress = stress_of(without.membrane[g], q);
+    for (std::size_t s = 0; s < without.membrane[g].P.size(); ++s) {
+      const double N = stress[static_cast<Eigen::Index>(s)];
+      A += N * with.membrane[g].G.transpose() * with.membrane[g].P[s] * with.membrane[g].G;
+      A -= N * without.membrane[g].G.transpose() * without.membrane[g].P[s] * without.membrane[g].G;
+    }
+  }
+  return A;
 }
 
 /// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are

@@ -15,8 +15,8 @@ namespace floe::fem {
 ///              v' = theta_z + 1/2 phi theta_y and w' = -theta_y + 1/2 phi theta_z at the nodes; S is half the second
 ///              variation of 1/2 int EI kappa^2 + GJ tau^2 less that of the linear curvatures, moments being those of
 ///              the linear ones
-///   tension    spatial beams without the Wagner term (SpatialBeamStrain::wagner): axial force on the lengthening of
-///   fibres by twist, S = 1/2 int N Ip/A phi'^2 and what the body's own twist adds
+///   tension    spatial beams without the Wagner term (SpatialBeamStrain::wagner): axial force N on the lengthening of
+///   fibres by twist, S = 1/2 int N Ip/A phi'^2
 ///
 /// Sources: Hodges & Dowell, NASA TN D-7818, 1974 (curvatures); theory.md.
 struct MissingStiffness {
