@@ -216,7 +216,8 @@ class ModelError {
     part_.notes = notes;
     const bool reached =
         why.empty() && resolved(second->event_error) && time_.of_first(second->reached - 0.98 * end) >= 0;
-    if (!reached && used.step > 1) leave_out_unchecked();
+    const bool late = time_.of_first(time_.spent()) > 2 * allowed_;  // the simulation was ended
+    if (!reached && !late && used.step > 1) leave_out_unchecked();
     if (!reached) return std::nullopt;  // the part stands
     ErrorPart of_own, change;
     set_errors(own_, one, own_second, 1, {}, of_own);
