@@ -225,3 +225,24 @@ probes:
 )yaml",
                     {Formulation::vm_md});
 }
+
+TEST_CASE("estimate: reactions of supports") {
+  check_effectivity("plate on two supports", R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [0.8, 0, 0], across: [0, 0.6, 0], elements: [8, 6], cells: quadrilaterals}}
+    section: {thickness: 4e-3}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 3}
+joints:
+  west: {type: support, between: [ground, plate.left], hold: [x, y, z]}
+  east: {type: support, between: [ground, plate.right], hold: [y, z]}
+loads: {p: {type: pressure, body: plate, pressure: "4e2*sin(40*t)"}}
+motion: {end: 0.1, step: 1e-3}
+probes:
+  middle: {at: {body: plate, node: [0.4, 0.3, 0]}}
+  west: {joint: west, quantity: force}
+  east: {joint: east, quantity: force}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+}
