@@ -6,8 +6,8 @@
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
 //   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
 //                   rotations have (generalized_alpha_rotations.cpp)
-//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + C shift_v + K, 1
-//                   for slow motions and 0 for stiff and for strongly damped ones; what the constraints see of A' stays
+//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
+//                   slow motions and 0 for stiff ones; what the constraints see of A' stays
 //   A_0 after events
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
 //                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
@@ -15,8 +15,8 @@
 //                   Also later, where a step of a constrained system is longer than the time since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
-// grows while steps shrink. Only what the step resolves: of stiff and of strongly damped motions A is far greater than
-// the a that the scheme goes on with, and starting from A in every step would let them grow.
+// grows while steps shrink. There J = M shift_a + C shift_v + K, so that strongly damped motions do not count either,
+// and velocities and normal part follow the constraints as far as the step resolves A - a (resolved_share).
 
 namespace floe::solve {
 namespace {
@@ -199,15 +199,14 @@ PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
 }
 
 // J(shift_v, shift_a) of the state that the step begins with; A: NULL for zero accelerations.
-PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
+PetscErrorCode jacobian_of_beginning(TS ts, PetscReal shift_v, Vec A) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   Mat J, P;
 
   PetscFunctionBegin;
   if (!A) PetscCall(VecSet(data->work_A, 0));
   PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-  PetscCall(
-      TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, data->shift_v, data->shift_a, J, P));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, shift_v, data->shift_a, J, P));
   PetscCall(take_jacobian(ts));
   PetscFunctionReturn(0);
 }
@@ -236,7 +235,7 @@ PetscErrorCode resolve_accelerations(TS ts) {
   PetscCall(VecAXPY(data->V1, -1, data->work_U));
   PetscCall(inertia_norm(ts, 1, data->V1, &lost));
   if (!(lost > 0.5 * whole)) PetscFunctionReturn(0);
-  PetscCall(jacobian_of_beginning(ts, nullptr));
+  PetscCall(jacobian_of_beginning(ts, 0, nullptr));
   PetscCall(jump_of_accelerations(data, data->work_U));
   PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
@@ -304,30 +303,6 @@ PetscErrorCode resolved_share(TS ts, PetscReal* share) {
   PetscFunctionReturn(0);
 }
 
-// After resolve_jerk, A' such that a_n = A_n - h shift A' (fresh_rates) is that of a start in what the step resolves,
-// and in the rest the scheme's own a, which follows the size of the step: a_n = a + R (A_n - h shift A'_resolved - a).
-PetscErrorCode keep_unresolved(TS ts) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
-  const PetscReal shift = data->h * (data->alpha_f - data->alpha_m), ratio = PetscMin(data->h / data->h_a0, 2);
-  KSPConvergedReason reason;
-
-  PetscFunctionBegin;
-  {
-    const Entries A(data->A0), a(data->a0), jerk(data->jerk);
-    Changed change(data->work_U);
-    for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) change[i] = ratio * (A[i] - a[i]) - shift * jerk[i];
-  }
-  for (PetscInt twice = 0; twice < 2; ++twice) {
-    PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
-    PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
-               "Change of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
-  }
-  const Entries A(data->A0), a(data->a0), change(data->work_U);
-  Changed jerk(data->jerk);
-  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) jerk[i] = (ratio * (A[i] - a[i]) - change[i]) / shift;
-  PetscFunctionReturn(0);
-}
-
 }  // namespace
 
 PetscErrorCode note_event(TS ts) {
@@ -355,10 +330,11 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(set_scales(ts));
   if (!data->start) PetscCall(accelerations(ts, inertia, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, inertia));
-  PetscCall(jacobian_of_beginning(ts, data->A0));
+  PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(mark_origin(ts));
   PetscCall(resolve_accelerations(ts));
+  PetscCall(jacobian_of_beginning(ts, data->shift_v, data->A0));
   PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
@@ -372,11 +348,11 @@ PetscErrorCode start_consistently(TS ts) {
 
 PetscErrorCode smooth_rates(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  PetscReal share;
+  PetscReal share = 0;
 
   PetscFunctionBegin;
   PetscCall(set_scales(ts));
-  PetscCall(jacobian_of_beginning(ts, data->A0));
+  PetscCall(jacobian_of_beginning(ts, data->shift_v, data->A0));
   PetscCall(resolved_share(ts, &share));
   PetscCall(project_velocity(ts, share));
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
@@ -385,7 +361,6 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(VecScale(data->normal, share));
   PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
-  PetscCall(keep_unresolved(ts));
   data->fresh = data->smoothed = PETSC_TRUE;
   data->h_start = data->h;
   data->equal_steps = 0;
@@ -399,7 +374,7 @@ PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
 
   PetscFunctionBegin;
   *reach = 0;
-  PetscCall(jacobian_of_beginning(ts, data->A0));
+  PetscCall(jacobian_of_beginning(ts, 0, data->A0));
   PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
   PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
   PetscCall(VecCopy(data->work_U, data->V1));
