@@ -204,7 +204,7 @@ class ModelError {
     const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_);
     const double limit = used.step > 1 ? std::max(time_.left(), allowed_ / 2) : time_.left();
     const bool useful = time_.of_first(wanted && large_ones > 0) > 0,
-               fits = time_.of_first(needs(twice)) <= time_.of_first(limit);
+               fits = time_.of_first(needs(twice)) * end / motion_.how.end <= time_.of_first(limit);
     if (!useful || !fits) return std::nullopt;
     const std::vector<std::string> notes = part_.notes;
     std::optional<Better> second;
