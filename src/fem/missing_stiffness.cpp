@@ -143,6 +143,18 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBea
   return to_own.transpose() * A * to_own;
 }
 
+/// sum w G'(sigma P) G of `maps`, sigma the membrane forces at q of `own`, which has the same points.
+MatrixXd stressed(const ElementMaps& maps, const ElementMaps& own, const VectorXd& q) {
+  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  for (std::size_t g = 0; g < maps.membrane.size(); ++g) {
+    const StrainPoint& at = maps.membrane[g];
+    const VectorXd stress = stress_of(own.membrane[g], q);
+    for (std::size_t s = 0; s < at.P.size(); ++s)
+      A += stress[static_cast<Eigen::Index>(s)] * at.G.transpose() * at.P[s] * at.G;
+  }
+  return A;
+}
+
 /// What the axial force at q, which these strains have, does on the Wagner term.
 MatrixXd tension(const Structure& structure, const Mesh::Cell& cell, SpatialBeam beam, const VectorXd& q) {
   const auto maps = [&](bool wagner) {
@@ -153,16 +165,7 @@ MatrixXd tension(const Structure& structure, const Mesh::Cell& cell, SpatialBeam
     return quadratic_beam(curve, beam.section, beam.strain);
   };
   const ElementMaps without = maps(false), with = maps(true);
-  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
-  for (std::size_t g = 0; g < without.membrane.size(); ++g) {
-    const VectorXd stress = stress_of(without.membrane[g], q);
-    for (std::size_t s = 0; s < without.membrane[g].P.size(); ++s) {
-      const double N = stress[static_cast<Eigen::Index>(s)];
-      A += N * with.membrane[g].G.transpose() * with.membrane[g].P[s] * with.membrane[g].G;
-      A -= N * without.membrane[g].G.transpose() * without.membrane[g].P[s] * without.membrane[g].G;
-    }
-  }
-  return A;
+  return stressed(with, without, q) - stressed(without, without, q);
 }
 
 /// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are
@@ -220,13 +223,7 @@ petsc::MatHandle initial_stress_stiffness(const Structure& structure, Vec q) {
   return assemble_cells(structure, {}, 0, [&](const Mesh::Cell& cell) {
     const ElementMaps maps = structure.maps(cell);
     const VectorXd own = all(structure.cell_dofs(cell));
-    MatrixXd A = MatrixXd::Zero(own.size(), own.size());
-    for (const StrainPoint& g : maps.membrane) {
-      const VectorXd stress = stress_of(g, own);
-      for (std::size_t s = 0; s < g.P.size(); ++s)
-        A += stress[static_cast<Eigen::Index>(s)] * g.G.transpose() * g.P[s] * g.G;
-    }
-    return A;
+    return stressed(maps, maps, own);
   });
 }
 
