@@ -6,8 +6,8 @@
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
 //   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
 //                   rotations have (generalized_alpha_rotations.cpp)
-//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
-//                   slow motions and 0 for stiff ones; what the constraints see of A' stays
+//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + C shift_v + K, near
+//                   1 for slow motions and 0 for stiff and strongly damped ones; what the constraints see of A' stays
 //   A_0 after events
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
 //                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
@@ -15,8 +15,8 @@
 //                   Also later, where a step of a constrained system is longer than the time since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
-// grows while steps shrink. There J = M shift_a + C shift_v + K, so that strongly damped motions do not count either,
-// and velocities and normal part follow the constraints as far as the step resolves A - a (resolved_share).
+// grows while steps shrink. There velocities and normal part follow the constraints as far as the step resolves A - a
+// (resolved_share).
 
 namespace floe::solve {
 namespace {
@@ -283,8 +283,9 @@ PetscErrorCode project_velocity(TS ts, PetscReal share) {
   PetscFunctionReturn(0);
 }
 
-// How much of A - a, which is h shift A' of smooth motions, the step resolves, squared, in the norm of M. Where stiff
-// or strongly damped motions are in it, A' is theirs, and what the constraints see of that is noise.
+// How much of A - a, which is h shift A' of smooth motions, the step resolves, in the norm of M: 1 where it is all, 0
+// where a fifth is lost. Where stiff or strongly damped motions are in it, A' is theirs, and what the constraints see
+// of that is noise.
 PetscErrorCode resolved_share(TS ts, PetscReal* share) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason reason;

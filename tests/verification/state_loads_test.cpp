@@ -432,7 +432,7 @@ probes:
 }
 
 // Steps that are long for the damped modes of the outer link: what they do not resolve must not reach constraints. The
-// force at the hub was 7e4 N for 84 N, the tip 0.09 m off, without a warning.
+// force at the hub was 8e4 N for 84 N, the tip 0.09 m off, without a warning.
 TEST_CASE("state loads: an arm with a damped elbow and damped modes takes loose tolerances") {
   const std::string arm = R"yaml(
 gravity: [0, -9.81]
@@ -460,7 +460,7 @@ probes:
     return most;
   };
   const History fixed = move(fill(arm, {{"steps", "step: 5e-4"}}), Formulation::vm_md);
-  for (const std::string tolerance : {"5e-3", "2e-3", "1e-3"}) {
+  for (const std::string tolerance : {"1e-2", "5e-3", "2e-3", "1e-3"}) {
     const History at = move(fill(arm, {{"steps", "step: 6e-4, tolerance: " + tolerance}}), Formulation::vm_md);
     INFO(tolerance);
     CHECK(at.report.steps < 200);
