@@ -127,7 +127,8 @@ PetscErrorCode start_consistently(TS ts);
 /// A0 is that before an event; start_consistently follows. Collective.
 PetscErrorCode note_event(TS ts);
 
-/// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
+/// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0, as far as the step
+/// resolves A - a. Collective.
 PetscErrorCode smooth_rates(TS ts);
 
 /// Removes from U - U0, an estimate of the step's end, what the step does not resolve: of stiff motions h^2 a_0 / 2 is

@@ -4,7 +4,7 @@
 //   A_0, lambda_0   from the start callback, or from F(t_0, U_0, V_0, A) = 0, which is linear in A
 //   A'              from the same at t_0 + e and t_0 + 2e with the state moved along its Taylor series; the three-point
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
-//   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
+//   normal          the part of c A' + [v, A]/12 that the constraints see, of least norm of J; [v, A] is what
 //                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + C shift_v + K, near
 //                   1 for slow motions and 0 for stiff and strongly damped ones; what the constraints see of A' stays
@@ -360,7 +360,11 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
   PetscCall(VecScale(data->normal, share));
-  PetscCall(resolve_accelerations(ts));
+  if (!passed_since_event(ts, data->h)) {
+    PetscCall(jacobian_of_beginning(ts, 0, data->A0));
+    PetscCall(resolve_accelerations(ts));
+    PetscCall(jacobian_of_beginning(ts, data->shift_v, data->A0));
+  }
   PetscCall(resolve_jerk(ts));
   data->fresh = data->smoothed = PETSC_TRUE;
   data->h_start = data->h;
