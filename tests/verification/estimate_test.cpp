@@ -240,7 +240,6 @@ joints:
 loads: {p: {type: pressure, body: plate, pressure: "4e2*sin(40*t)"}}
 motion: {end: 0.1, step: 1e-3}
 probes:
-  middle: {at: {body: plate, node: [0.4, 0.3, 0]}}
   west: {joint: west, quantity: force}
   east: {joint: east, quantity: force}
 )yaml",
