@@ -108,6 +108,12 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
   diagram.label = label_of(diagram.model);
   const solve::RotatingSystem rotating = assembly::rotating_system(given, diagram.model, diagram.axis);
+  const PetscInt unknowns = diagram.model.coordinates + diagram.model.multipliers;
+  if (unknowns > solve::largest_rotating_system)
+    throw InputError(
+        fmt::format("{} unknowns are too many for the vibrations of steady rotations, which take up to {}; expected a "
+                    "reduced formulation (vm+md, vm), fewer modes or a coarser mesh",
+                    unknowns, solve::largest_rotating_system));
   solve::check_rotations(rotating, diagram.model.U);
   const double started = MPI_Wtime();
   diagram.offline_seconds = started - begin;

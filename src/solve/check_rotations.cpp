@@ -65,13 +65,9 @@ Trial trial(const RotatingSystem& rotating, Vec U) {
   rotate(rotating, tried, rotated);
   out.there = rotating_tangent(rotating, 0, rotated);
   kept.restore(U);
-  for (auto* X : {&out.there.G, &out.there.K}) {
-    rotation_rows(rotating, -tried, *X);
-    MatrixXd columns = X->transpose();
-    rotation_rows(rotating, -tried, columns);
-    *X = columns.transpose();
-  }
-  rotation_rows(rotating, -tried, out.there.F);
+  const Sparse back = row_rotation(rotating, -tried), forth = back.transpose();
+  for (Sparse* X : {&out.there.G, &out.there.K}) *X = Sparse(back * *X) * forth;
+  out.there.F = back * out.there.F;
   return out;
 }
 
@@ -79,12 +75,14 @@ Trial trial(const RotatingSystem& rotating, Vec U) {
 /// rotating axes. Entries count as the forces that rotations by one radian and what they move make.
 void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std::vector<char>& is_multiplier,
                      const VectorXd& reach, const std::vector<std::string>& names) {
-  const VectorXd size = reach.asDiagonal() * at.here.K.cwiseAbs() * reach;  // of each row
+  const VectorXd size = reach.asDiagonal() * (at.here.K.cwiseAbs() * reach);  // of each row
   const double greatest = size.size() > 0 ? size.maxCoeff() : 0;
+  const Sparse difference = at.there.K - at.here.K;
   for (Index i = 0; i < size.size(); ++i)
-    for (Index j = 0; j < size.size() && !is_multiplier[i]; ++j) {
+    for (Sparse::InnerIterator entry(difference, i); entry && !is_multiplier[i]; ++entry) {
+      const Index j = entry.col();
       if (is_multiplier[j]) continue;
-      const double change = reach[i] * std::abs(at.there.K(i, j) - at.here.K(i, j)) * reach[j];
+      const double change = reach[i] * std::abs(entry.value()) * reach[j];
       if (!(change > 1e-6 * std::sqrt(size[i] * size[j]) + 1e-11 * greatest)) continue;
       refuse(
           fmt::format(
@@ -100,11 +98,6 @@ void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std:
 void check_rotations(const RotatingSystem& rotating, Vec U) {
   const System& system = rotating.system;
   const PetscInt unknowns = system.coordinates().global_size();
-  if (unknowns > largest_rotating_system)
-    throw InputError(
-        fmt::format("{} unknowns are too many for steady rotations, which take up to {}; expected a reduced "
-                    "formulation (vm+md, vm), fewer modes or a coarser mesh",
-                    unknowns, largest_rotating_system));
   const std::vector<std::string> names = owner_names(system.coordinates());
   const std::vector<char> is_multiplier = multiplier_flags(system);
   const std::vector<Index> angles = angle_rows(rotating, names);
@@ -113,13 +106,14 @@ void check_rotations(const RotatingSystem& rotating, Vec U) {
   // what a coordinate moves where a frame rotates by one radian
   const VectorXd reach = mass.root.unaryExpr([&](double root) { return root > 0 ? mass.rotation / root : 0.0; });
   const AllowedMotions allowed(system, at.here, mass.root);
-  const MatrixXd lost = allowed.restrict_rows(at.there.G.transpose());
+  const VectorXd sizes = at.here.G.cwiseAbs() * reach;
   for (Index i = 0; i < unknowns; ++i) {
     if (!is_multiplier[i]) continue;
-    const double size = at.here.G.row(i).cwiseAbs() * reach;
+    const double size = sizes[i];
     const bool met = std::abs(at.there.F[i] - at.here.F[i]) <= 1e-7 * size ||
                      std::find(angles.begin(), angles.end(), i) != angles.end();
-    if (!met || (size > 0 && lost.col(i).norm() * mass.rotation > 1e-7 * size))
+    if (!met || (size > 0 &&
+                 allowed.restrict_rows(VectorXd(at.there.G.row(i).transpose())).norm() * mass.rotation > 1e-7 * size))
       refuse(names[i], "joints to the ground on the axis that leave the rotation about it free or drive it");
   }
   const VectorXd change = at.there.F - at.here.F, stiff = at.here.K.cwiseAbs() * reach;

@@ -9,14 +9,27 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-AllowedMotions::AllowedMotions(const System& system, const RotatingTangent& at, const VectorXd& root_mass) : G_(at.G) {
+AllowedMotions::AllowedMotions(const System& system, const RotatingTangent& at, const VectorXd& root_mass) {
   const std::vector<char> is_multiplier = multiplier_flags(system);
-  for (Index i = 0; i < G_.rows(); ++i)
-    if (!is_multiplier[i] && G_(i, i) == 0) free_.push_back(i);  // constrained dofs have an equation of their own
-  for (Index i = 0; i < G_.rows(); ++i)
-    if (is_multiplier[i] && !G_(i, free_).isZero(0)) rows_.push_back(i);  // others belong to rows that are left out
+  const VectorXd equations = at.G.diagonal();  // of constrained dofs
+  std::vector<Index> place(is_multiplier.size(), -1);
+  for (Index i = 0; i < at.G.rows(); ++i)
+    if (!is_multiplier[i] && equations[i] == 0) {
+      place[i] = static_cast<Index>(free_.size());
+      free_.push_back(i);
+    }
+  std::vector<VectorXd> gradients;
+  for (Index i = 0; i < at.G.rows(); ++i) {
+    if (!is_multiplier[i]) continue;
+    VectorXd gradient = VectorXd::Zero(static_cast<Index>(free_.size()));
+    for (Sparse::InnerIterator entry(at.G, i); entry; ++entry)
+      if (place[entry.col()] >= 0) gradient[place[entry.col()]] = entry.value();
+    if (!gradient.isZero(0)) gradients.push_back(std::move(gradient));  // others belong to rows that are left out
+  }
+  gradients_.resize(static_cast<Index>(free_.size()), static_cast<Index>(gradients.size()));
+  for (Index j = 0; j < gradients_.cols(); ++j) gradients_.col(j) = gradients[j];
   scale(root_mass);
-  if (rows_.empty() || free_.empty()) return;
+  if (gradients_.size() == 0) return;
   qr_.setThreshold(1e-11);
   qr_.compute(scaled_gradients());
   rank_ = qr_.rank();
@@ -27,7 +40,7 @@ void AllowedMotions::scale(const VectorXd& root) {
 }
 
 MatrixXd AllowedMotions::scaled_gradients() const {
-  MatrixXd gradients = scale_.asDiagonal() * G_(rows_, free_).transpose();
+  MatrixXd gradients = scale_.asDiagonal() * gradients_;
   gradients.colwise().normalize();
   return gradients;
 }
@@ -35,15 +48,16 @@ MatrixXd AllowedMotions::scaled_gradients() const {
 void AllowedMotions::rescale(const VectorXd& root) {
   scale(root);
   if (rank_ == 0) return;
-  std::vector<Index> independent, order(free_.size()), sorted;
-  for (Index i = 0; i < rank_; ++i) independent.push_back(rows_[qr_.colsPermutation().indices()[i]]);
-  rows_ = independent;
+  const Eigen::VectorXi independent = qr_.colsPermutation().indices().head(rank_);
+  gradients_ = gradients_(Eigen::all, independent).eval();
   // the greatest first, whose round-off must not reach small ones (Cox and Higham 1998, BIT 38)
   const VectorXd greatest = scaled_gradients().cwiseAbs().rowwise().maxCoeff();
+  std::vector<Index> order(free_.size()), sorted;
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return greatest[a] > greatest[b]; });
   for (const Index i : order) sorted.push_back(free_[i]);
   free_ = sorted;
+  gradients_ = gradients_(order, Eigen::all).eval();
   scale(root);
   qr_.compute(scaled_gradients());
 }

@@ -24,8 +24,8 @@ class AllowedMotions {
   void scale(const Eigen::VectorXd& root);
   Eigen::MatrixXd scaled_gradients() const;
 
-  const Eigen::MatrixXd& G_;
-  std::vector<Eigen::Index> free_, rows_;  ///< coordinates; constraints
+  std::vector<Eigen::Index> free_;  ///< coordinates
+  Eigen::MatrixXd gradients_;       ///< of the constraints, each a column over the free coordinates
   Eigen::VectorXd scale_;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::Index rank_ = 0;

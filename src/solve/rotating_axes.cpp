@@ -40,20 +40,42 @@ Index global(const RotatingSystem& rotating, int local) { return rotating.system
 
 Matrix2d across(double factor) { return (Matrix2d() << 0, -factor, factor, 0).finished(); }
 
-void add_planar(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
+/// The blocks of a matrix that has few.
+class Blocks {
+ public:
+  void add(Index row, Index column, const MatrixXd& values) {
+    for (Index i = 0; i < values.rows(); ++i)
+      for (Index j = 0; j < values.cols(); ++j)
+        entries_.emplace_back(static_cast<PetscInt>(row + i), static_cast<PetscInt>(column + j), values(i, j));
+  }
+  Sparse matrix(Index n) const {
+    Sparse sum(n, n);
+    sum.setFromTriplets(entries_.begin(), entries_.end());
+    return sum;
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double, PetscInt>> entries_;
+};
+
+struct Derivatives {
+  Blocks V_U, A_U, H;
+};
+
+void add_planar(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out, Derivatives& d) {
   const Matrix2d W = across(speed);
   for (int frame : rotating.planar_frames) {
     const Index R = global(rotating, frame);
     const Eigen::Vector2d arm = U.segment<2>(R) - rotating.axis.point.head<2>();
     out.V.segment<2>(R) = W * arm, out.V[R + 2] = speed;
     out.A.segment<2>(R) = W * W * arm;
-    out.V_U.push_back({R, R, W});
-    out.A_U.push_back({R, R, W * W});
-    out.H.push_back({R, R, 2 * W});
+    d.V_U.add(R, R, W);
+    d.A_U.add(R, R, W * W);
+    d.H.add(R, R, 2 * W);
   }
 }
 
-void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
+void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out, Derivatives& d) {
   const Vector3d spin = speed * rotating.axis.direction;
   const Matrix3d W = math::skew(spin);
   for (const auto& [x, base] : world_frames(rotating.system)) {
@@ -62,11 +84,11 @@ void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U
     const Matrix3d w = math::skew(omega);
     out.V.segment<3>(R) = W * arm, out.V.segment<3>(x) = omega;
     out.A.segment<3>(R) = W * W * arm;
-    out.V_U.push_back({R, R, W});
-    out.V_U.push_back({x, x, w});  // A -> A (I + ~dtheta): A'W -> A'W - dtheta x omega
-    out.A_U.push_back({R, R, W * W});
-    out.H.push_back({R, R, 2 * W});
-    out.H.push_back({x, x, w});
+    d.V_U.add(R, R, W);
+    d.V_U.add(x, x, w);  // A -> A (I + ~dtheta): A'W -> A'W - dtheta x omega
+    d.A_U.add(R, R, W * W);
+    d.H.add(R, R, 2 * W);
+    d.H.add(x, x, w);
   }
 }
 
@@ -74,14 +96,11 @@ void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U
 
 RotatingMotion rotating_motion(const RotatingSystem& rotating, double speed, const VectorXd& U) {
   RotatingMotion out{VectorXd::Zero(U.size()), VectorXd::Zero(U.size()), {}, {}, {}};
-  add_planar(rotating, speed, U, out);
-  add_spatial(rotating, speed, U, out);
+  Derivatives d;
+  add_planar(rotating, speed, U, out, d);
+  add_spatial(rotating, speed, U, out, d);
+  out.V_U = d.V_U.matrix(U.size()), out.A_U = d.A_U.matrix(U.size()), out.H = d.H.matrix(U.size());
   return out;
-}
-
-void add_product(const MatrixXd& Y, const RotatingMotion::Blocks& B, MatrixXd& X) {
-  for (const auto& block : B)
-    X.middleCols(block.column, block.values.cols()) += Y.middleCols(block.row, block.values.rows()) * block.values;
 }
 
 RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, Vec U) {
@@ -100,12 +119,10 @@ RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, V
   out.F = gather_to_all(system, F);
   out.G = tangent({0, 0, 0});
   out.M = tangent({0, 0, 1}) - out.G;
-  const MatrixXd F_v = tangent({0, 1, 0}) - out.G;
+  const Sparse F_v = tangent({0, 1, 0}) - out.G;
   out.K = tangent({1, 0, 0}) - out.G;
-  add_product(F_v, motion.V_U, out.K);
-  add_product(out.M, motion.A_U, out.K);
-  out.C = F_v;
-  add_product(out.M, motion.H, out.C);
+  out.K += Sparse(F_v * motion.V_U) + Sparse(out.M * motion.A_U);
+  out.C = F_v + Sparse(out.M * motion.H);
   return out;
 }
 
@@ -117,8 +134,8 @@ std::vector<char> multiplier_flags(const System& system) {
   return flags;
 }
 
-MassScale mass_scale(const RotatingSystem& rotating, const MatrixXd& M) {
-  MassScale scale{M.diagonal().cwiseMax(0).cwiseSqrt(), 0};
+MassScale mass_scale(const RotatingSystem& rotating, const Sparse& M) {
+  MassScale scale{VectorXd(M.diagonal()).cwiseMax(0).cwiseSqrt(), 0};
   for (int frame : rotating.planar_frames)
     scale.rotation = std::max(scale.rotation, scale.root[global(rotating, frame) + 2]);
   for (const auto& [x, base] : world_frames(rotating.system))
@@ -162,14 +179,20 @@ void rotate(const RotatingSystem& rotating, double angle, Vec U) {
   set(U, u);
 }
 
-void rotation_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<MatrixXd> rows) {
+Sparse row_rotation(const RotatingSystem& rotating, double angle) {
   const Matrix3d E = Eigen::AngleAxisd(angle, rotating.axis.direction).toRotationMatrix();
-  for (const auto& [x, base] : world_frames(rotating.system))
-    rows.middleRows(x - 3, 3) = (E * rows.middleRows(x - 3, 3)).eval();
-  for (int frame : rotating.planar_frames) {
-    const Index R = global(rotating, frame);
-    rows.middleRows(R, 2) = (E.topLeftCorner<2, 2>() * rows.middleRows(R, 2)).eval();
-  }
+  const Index n = rotating.system.coordinates().global_size();
+  std::vector<char> rotated(n, 0);
+  Blocks blocks;
+  const auto rotate_at = [&](Index R, const MatrixXd& block) {
+    blocks.add(R, R, block);
+    std::fill_n(rotated.begin() + R, block.rows(), 1);
+  };
+  for (const auto& [x, base] : world_frames(rotating.system)) rotate_at(x - 3, E);
+  for (int frame : rotating.planar_frames) rotate_at(global(rotating, frame), E.topLeftCorner<2, 2>());
+  for (Index i = 0; i < n; ++i)
+    if (!rotated[i]) blocks.add(i, i, MatrixXd::Ones(1, 1));
+  return blocks.matrix(n);
 }
 
 }  // namespace floe::solve

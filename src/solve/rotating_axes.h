@@ -1,7 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
-
 #include "floe/solve/steady_rotation.h"
+#include "gather_to_all.h"
 
 namespace floe::solve {
 
@@ -16,27 +15,16 @@ std::vector<WorldFrame> world_frames(const System& system);
 
 /// What the rotation prescribes at a configuration whose attitudes are their own bases, by global index.
 struct RotatingMotion {
-  /// A block of a matrix that has few: its rows and columns are those of three or two unknowns.
-  struct Block {
-    Eigen::Index row, column;
-    Eigen::MatrixXd values;
-  };
-  using Blocks = std::vector<Block>;
-
   Eigen::VectorXd V, A;
-  Blocks V_U, A_U, H;  ///< derivatives; see vibrations()
+  Sparse V_U, A_U, H;  ///< derivatives; see vibrations()
 };
 RotatingMotion rotating_motion(const RotatingSystem& rotating, double speed, const Eigen::VectorXd& U);
 
-/// X += Y B.
-void add_product(const Eigen::MatrixXd& Y, const RotatingMotion::Blocks& B, Eigen::MatrixXd& X);
-
 /// The matrices of small motions about a rotation, all by global index, the same on every rank.
 struct RotatingTangent {
-  Eigen::VectorXd F;        ///< residual
-  Eigen::MatrixXd M, C, K;  ///< without what does not depend on time scales:
-  Eigen::MatrixXd
-      G;  ///< gradients of constraints in the multipliers' rows, their transposes, dofs that are constrained
+  Eigen::VectorXd F;  ///< residual
+  Sparse M, C, K;     ///< without what does not depend on time scales:
+  Sparse G;  ///< gradients of constraints in the multipliers' rows, their transposes, dofs that are constrained
 };
 /// Bases take over the rotations of U first. Collective.
 RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, Vec U);
@@ -49,7 +37,7 @@ struct MassScale {
   Eigen::VectorXd root;
   double rotation = 1;
 };
-MassScale mass_scale(const RotatingSystem& rotating, const Eigen::MatrixXd& M);
+MassScale mass_scale(const RotatingSystem& rotating, const Sparse& M);
 
 /// A configuration to come back to.
 class KeptState {
@@ -68,7 +56,7 @@ class KeptState {
 
 /// The whole scene rotated about the axis; bases take over the rotations of U. Collective.
 void rotate(const RotatingSystem& rotating, double angle, Vec U);
-/// Rows of a vector (or of the columns of a matrix) that are in world axes, those of R, rotated likewise.
-void rotation_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<Eigen::MatrixXd> rows);
+/// The matrix that rotates the rows of a vector that are in world axes, those of R, likewise.
+Sparse row_rotation(const RotatingSystem& rotating, double angle);
 
 }  // namespace floe::solve

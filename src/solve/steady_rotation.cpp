@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floe/solve/start.h"
 #include "gather_to_all.h"
 #include "rotating_axes.h"
 
@@ -13,24 +14,66 @@ namespace floe::solve {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using petsc::check;
 
 namespace {
 
-/// J x = b with rows and columns of greatest entry one (Ruiz 2001, RAL-TR-2001-034); where J is small the solution of
-/// least norm, which singular directions leave alone.
-VectorXd solve(MatrixXd J, VectorXd b) {
+/// Rows and columns of J get greatest entries of about one: R J S (Ruiz 2001, RAL-TR-2001-034).
+void equilibrate(Sparse& J, VectorXd& R, VectorXd& S) {
   const auto root = [](double greatest) { return greatest > 0 ? 1 / std::sqrt(greatest) : 1.0; };
-  VectorXd columns = VectorXd::Ones(J.cols());
+  R = S = VectorXd::Ones(J.rows());
   for (int sweep = 0; sweep < 5; ++sweep) {
-    const VectorXd left = J.cwiseAbs().rowwise().maxCoeff().unaryExpr(root),
-                   right = J.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(root);
+    VectorXd left = VectorXd::Zero(J.rows()), right = left;
+    for (Index i = 0; i < J.rows(); ++i)
+      for (Sparse::InnerIterator entry(J, i); entry; ++entry) {
+        left[i] = std::max(left[i], std::abs(entry.value()));
+        right[entry.col()] = std::max(right[entry.col()], std::abs(entry.value()));
+      }
+    left = left.unaryExpr(root), right = right.unaryExpr(root);
     J = left.asDiagonal() * J * right.asDiagonal();
-    b.array() *= left.array(), columns.array() *= right.array();
+    R.array() *= left.array(), S.array() *= right.array();
   }
+}
+
+/// J^-1 b by MUMPS on this rank.
+VectorXd factored(Sparse& J, VectorXd b) {
+  const PetscInt n = static_cast<PetscInt>(J.rows());
+  petsc::MatHandle A;
+  petsc::VecHandle in, out;
+  petsc::KspHandle ksp;
+  VectorXd x(n);
+  J.makeCompressed();
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, J.outerIndexPtr(), J.innerIndexPtr(), J.valuePtr(), A.out()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, b.data(), in.out()));
+  check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, x.data(), out.out()));
+  check(KSPCreate(PETSC_COMM_SELF, ksp.out()));
+  check(KSPSetOperators(ksp, A, A));
+  set_tangent_solver(ksp, A);
+  try {
+    check(KSPSolve(ksp, in, out));
+  } catch (const petsc::Error&) {  // other ranks wait for an answer
+    x.setConstant(NAN);
+  }
+  return x;
+}
+
+/// J x = b on the first rank; where J is small the solution of least norm, which singular directions leave alone. Not
+/// finite where there is none. Collective.
+VectorXd solve(Sparse J, const VectorXd& b, MPI_Comm comm) {
   constexpr Index small = 400;
-  const VectorXd x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(J).solve(b))
-                                       : VectorXd(J.partialPivLu().solve(b));
-  return columns.cwiseProduct(x);
+  VectorXd x = VectorXd::Zero(b.size());
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) {
+    VectorXd R, S;
+    equilibrate(J, R, S);
+    const VectorXd scaled = R.cwiseProduct(b);
+    x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(MatrixXd(J)).solve(scaled))
+                          : factored(J, scaled);
+    x.array() *= S.array();
+  }
+  MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, comm);
+  return x;
 }
 
 /// Whether nothing holds the scene's rotation about the axis, at a configuration that meets the constraints.
@@ -47,26 +90,34 @@ struct Step {
 /// Newton's step; where the scene is free to rotate, it does not, and may spin up instead: [J M b; (M b)' 0].
 ///
 /// @param rotation  change of the coordinates as the scene rotates by one radian; zero where a drive holds it
-Step newton_step(const RotatingTangent& at, const VectorXd& rotation) {
+/// Collective.
+Step newton_step(const RotatingTangent& at, const VectorXd& rotation, MPI_Comm comm) {
   const VectorXd weighted = at.M * rotation;
   const double inertia = rotation.dot(weighted);
-  if (!(inertia > 0)) return {solve(at.K + at.G, -at.F)};
+  Sparse J = at.K + at.G;
+  if (!(inertia > 0)) return {solve(std::move(J), -at.F, comm)};
   const Index n = rotation.size();
-  MatrixXd J = MatrixXd::Zero(n + 1, n + 1);
-  J.topLeftCorner(n, n) = at.K + at.G;
-  J.topRightCorner(n, 1) = weighted / inertia;
-  J.bottomLeftCorner(1, n) = weighted.transpose() / inertia;
+  std::vector<Eigen::Triplet<double, PetscInt>> border;
+  for (Index i = 0; i < n; ++i) {
+    if (weighted[i] == 0) continue;
+    border.emplace_back(static_cast<PetscInt>(i), static_cast<PetscInt>(n), weighted[i] / inertia);
+    border.emplace_back(static_cast<PetscInt>(n), static_cast<PetscInt>(i), weighted[i] / inertia);
+  }
+  Sparse bordered(n + 1, n + 1);
+  bordered.setFromTriplets(border.begin(), border.end());
+  J.conservativeResize(n + 1, n + 1);
   VectorXd b = VectorXd::Zero(n + 1);
   b.head(n) = -at.F;
-  const VectorXd x = solve(std::move(J), std::move(b));
+  const VectorXd x = solve(J + bordered, b, comm);
   return {x.head(n), x[n] / inertia};
 }
 
 /// Accelerations that round-off, or a search that came near enough, leaves. [rad/s2]
 double negligible(const RotatingTangent& at, const MassScale& mass, double speed) {
   double fastest = 0;  // square of the highest frequency
-  for (Index i = 0; i < at.K.rows(); ++i)
-    if (mass.root[i] > 0) fastest = std::max(fastest, std::abs(at.K(i, i)) / std::pow(mass.root[i], 2));
+  const VectorXd stiffness = VectorXd(at.K.diagonal()).cwiseAbs();
+  for (Index i = 0; i < stiffness.size(); ++i)
+    if (mass.root[i] > 0) fastest = std::max(fastest, stiffness[i] / std::pow(mass.root[i], 2));
   return 1e-6 * speed * speed + 1e-12 * fastest;
 }
 
@@ -101,8 +152,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
     VectorXd rotation = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = rotates_freely(at, rotation);
     if (!free) rotation.setZero();
-    Step step = newton_step(at, rotation);
-    MPI_Bcast(step.change.data(), static_cast<int>(step.change.size()), MPI_DOUBLE, 0, rotating.system.comm());
+    const Step step = newton_step(at, rotation, rotating.system.comm());
     const double size = size_of(step.change, mass_scale(rotating, at.M));
     if (!step.change.allFinite()) break;
     set(U, u + step.change);
@@ -123,7 +173,7 @@ VectorXd step_towards(const RotatingSystem& rotating, double speed, double other
   VectorXd rotation = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
   if (!rotates_freely(at, rotation)) rotation.setZero();
   at.F = F;
-  return newton_step(at, rotation).change;
+  return newton_step(at, rotation, rotating.system.comm()).change;
 }
 
 /// From one steady rotation to another.

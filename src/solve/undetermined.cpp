@@ -90,7 +90,7 @@ bool can_look(const System& system) {
 
 Undetermined null_vectors(const System& system, Mat J) {
   if (!can_look(system)) return {};
-  const Eigen::MatrixXd dense = gather_to_all(system, J);
+  const Eigen::MatrixXd dense(gather_to_all(system, J));
   if (!dense.allFinite()) return {};
   const Eigen::MatrixXd J_scaled = scaled(dense);
   const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(J_scaled).matrixQR().diagonal().cwiseAbs();

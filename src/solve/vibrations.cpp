@@ -89,7 +89,8 @@ double typical(const Quadratic& problem) {
 }
 
 Quadratic on(const AllowedMotions& allowed, const RotatingTangent& at) {
-  return {allowed.restrict_both(at.M), allowed.restrict_both(at.C), allowed.restrict_both(at.K)};
+  return {allowed.restrict_both(MatrixXd(at.M)), allowed.restrict_both(MatrixXd(at.C)),
+          allowed.restrict_both(MatrixXd(at.K))};
 }
 
 /// Scales coordinates until round-off of the stiffest does not reach the slow vibrations: those on coordinates of unit
@@ -97,7 +98,7 @@ Quadratic on(const AllowedMotions& allowed, const RotatingTangent& at) {
 /// @return  w, typical of the slow vibrations, or the speed
 double resolve(const RotatingTangent& at, double speed, AllowedMotions& allowed, Quadratic& problem) {
   constexpr double wanted = 1e-9;
-  const VectorXd stiffness = at.K.diagonal().cwiseAbs(), mass = at.M.diagonal().cwiseMax(0);
+  const VectorXd stiffness = VectorXd(at.K.diagonal()).cwiseAbs(), mass = VectorXd(at.M.diagonal()).cwiseMax(0);
   double fast = fastest(problem), swing = std::max(typical(problem), speed);
   while (std::numeric_limits<double>::epsilon() * fast > wanted * swing * swing && swing > 0) {
     fast = swing * swing;
@@ -196,7 +197,9 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
     slowest[i].shape.resize(at.M.rows());
     slowest[i].shape.real() = allowed.expand(own.real(), at.M.rows());
     slowest[i].shape.imag() = allowed.expand(own.imag(), at.M.rows());
-    slowest[i].momentum = at.M * slowest[i].shape;
+    slowest[i].momentum.resize(at.M.rows());
+    slowest[i].momentum.real() = at.M * slowest[i].shape.real();
+    slowest[i].momentum.imag() = at.M * slowest[i].shape.imag();
   }
   return slowest;
 }

@@ -35,14 +35,14 @@ struct RotatingSystem {
   std::vector<std::string> springs = {};
 };
 
-/// Unknowns beyond which nothing below is tried: its matrices are dense.
+/// Unknowns beyond which vibrations() are not sought: their matrices are dense.
 inline constexpr PetscInt largest_rotating_system = 1500;
 
 /// That the equations are the same for a scene that has rotated about the axis: constraints stay met, allow the same
 /// motions, and forces and their stiffness rotate along. Tried by rotating U by a finite angle.
 ///
 /// @param U  a configuration that meets the constraints; as before afterwards
-/// @throws InputError  too many unknowns, or what does not rotate: a joint (by name), or loads and gravity. Collective.
+/// @throws InputError  what does not rotate: a joint (by name), or loads and gravity. Collective.
 void check_rotations(const RotatingSystem& rotating, Vec U);
 
 /// How a steady rotation was reached.
