@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "floe/dynamics/patched_function.h"
 #include "floe/math/integral.h"
-#include "smooth_drive.h"
 
 namespace floe::assembly {
 namespace {
@@ -51,7 +51,7 @@ bool grows(const math::Formula& f, const math::Breaks& all, int which, double at
 }
 
 /// Joins [a, b] by a polynomial that has the drive's acceleration at one of its ends, `smooth_end`.
-Patch patch_over(const dynamics::TimeFunction& drive, double a, double b, double smooth_end) {
+dynamics::Patch patch_over(const dynamics::TimeFunction& drive, double a, double b, double smooth_end) {
   const double h = b - a, s = (smooth_end - a) / h;
   Eigen::Matrix<double, 5, 5> rows;
   rows << 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1, 0, 1, 2, 3, 4, 0, 0, 2, 6 * s, 12 * s * s;
@@ -130,7 +130,7 @@ std::vector<DriveKink> drive_kinks(const Joint& joint, const Motion& motion, dou
 dynamics::TimeFunction drive_of(const Joint& joint, const Motion& motion) {
   dynamics::TimeFunction drive = as_written(joint, motion);
   const std::vector<DriveKink> kinks = drive_kinks(joint, motion);
-  std::vector<Patch> patches;
+  std::vector<dynamics::Patch> patches;
   for (std::size_t i = 0; i < kinks.size(); ++i) {
     const DriveKink& at = kinks[i];
     const auto [left, right] = room(kinks, i, motion.step);
@@ -138,7 +138,7 @@ dynamics::TimeFunction drive_of(const Joint& joint, const Motion& motion) {
     if (at.endless[1]) patches.push_back(patch_over(drive, at.after, at.after + right, at.after + right));
   }
   const double begin = !kinks.empty() && kinks[0].before <= 0 ? kinks[0].after : 0;
-  return begin > 0 || !patches.empty() ? patched(std::move(drive), std::move(patches), begin) : drive;
+  return begin > 0 || !patches.empty() ? dynamics::patched(std::move(drive), std::move(patches), begin) : drive;
 }
 
 std::vector<std::string> smoothed_drives(const Scene& scene) {

@@ -88,7 +88,7 @@ void PlanarAssembly::add_coordinates() {
     modal_wholes_.emplace_back(plan_, modes, !compact(modes.bodies.front()), coordinates_);
   add_damping_axes();
   add_body_axes();
-  joint_rows_ = independent_rows(plan_, reduced_, undetermined_);
+  joint_rows_ = independent_rows(plan_, reduced_, switches_, undetermined_, notes_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
@@ -234,6 +234,7 @@ Model PlanarAssembly::model() {
   model.formulation = formulation_;
   if (plan_.extent > 0) model.extent = plan_.extent;
   add_coordinates();
+  model.warnings = notes_;
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const std::size_t before = terms_.size();
     add_body_terms(static_cast<int>(b));

@@ -111,6 +111,7 @@ class PlanarAssembly {
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
   std::map<std::size_t, StateFormulas> state_formulas_;  // of loads that depend on sensors, but for those of joints
   std::vector<int> undetermined_;                        // joints whose multipliers are not determined
+  std::vector<std::string> notes_;                       // of joints that lose redundant rows
   std::map<std::string, JointSwitches> switches_;
 };
 

@@ -4,154 +4,244 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 
 #include "connections.h"
-#include "floe/dynamics/marker.h"
+#include "floe/dynamics/constraint_rows.h"
+#include "floe/dynamics/joints.h"
 #include "floe/math/independent_rows.h"
 
 namespace floe::assembly {
 namespace {
 
+using dynamics::Marker;
+using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A body between several joints to the ground: rows C(q) in its own coordinates q = (R, theta, eta).
-struct FixedFrameBody {
-  struct Hold {
-    int joint = 0;
-    dynamics::Marker marker;
-    Eigen::Matrix<double, Eigen::Dynamic, 3> directions;  ///< of the marker's pose, a row each
-    bool driven = false;                                  ///< its last row follows a function of time
-  };
-  std::vector<Hold> holds;
-  /// q at the start, and how far its entries go: deformations by a hundredth of the extent, followed by the frame
-  VectorXd start, scale;
-
-  VectorXd rows(const VectorXd& q, Eigen::MatrixXd* gradient) const {
-    Eigen::Index count = 0;
-    for (const Hold& hold : holds) count += hold.directions.rows();
-    VectorXd values(count);
-    if (gradient) gradient->resize(count, q.size());
-    const VectorXd none = VectorXd::Zero(q.size());
-    dynamics::Pose pose;
-    Eigen::Index first = 0;
-    for (const Hold& hold : holds) {
-      const Eigen::Index n = hold.directions.rows();
-      dynamics::pose(hold.marker, q, none, none, pose);
-      values.segment(first, n) = hold.directions * pose.y;
-      if (gradient) gradient->middleRows(first, n) = hold.directions * pose.P * scale.asDiagonal();
-      first += n;
-    }
-    return values;
+/// Rows C(q) of joints between the ground and bodies with a frame (rigid, reduced, from files), in their coordinates q
+/// = (R, theta, eta), body by body.
+class JointRows {
+ public:
+  /// @param rows  of each of the scene's joints, those that stand so far
+  JointRows(const Plan& plan, const std::vector<ReducedBody>& reduced, const std::vector<int>& joints,
+            const std::vector<std::vector<int>>& rows)
+      : plan_(plan), reduced_(reduced) {
+    for (const int j : joints)
+      for (const Anchor& place : plan.joints[j])
+        if (!place.ground() && !first_.contains(place.body)) add_body(place.body);
+    for (const int j : joints) add(j, rows[j]);
   }
-};
 
-FixedFrameBody fixed_frame_body(const Plan& plan, const ReducedBody& reduced, int b, const std::vector<int>& joints) {
-  const PlannedBody& body = plan.bodies[b];
-  const int k = reduced.body.coordinates();
-  FixedFrameBody constrained;
-  for (int j : joints) {
-    const Joint& joint = plan.scene.joints[j];
-    const Anchor& place = plan.joints[j][plan.joints[j][0].ground() ? 1 : 0];
-    const body::PlaceMap map = place_map(plan, reduced, place);
-    FixedFrameBody::Hold& hold = constrained.holds.emplace_back();
-    hold.joint = j;
-    hold.driven = joint.kind == Joint::Kind::driven;
-    hold.directions = Eigen::Matrix3d::Identity().topRows(joint_rows(joint));
+  struct Entry {
+    int joint;
+    std::vector<int> rows;  ///< of its constraint
+    bool driven;            ///< its last row follows a function of time
+  };
+  const Entry& entry_of(Index row) const { return entries_[rows_.term_of(row)]; }
+  const std::vector<Entry>& entries() const { return entries_; }
+
+  /// Derivatives at the start by q in parts of its scale.
+  MatrixXd gradient() const {
+    MatrixXd gradient;
+    rows_.values(start_, 0, &gradient);
+    return gradient * scale_.asDiagonal();
+  }
+
+  /// The row that is furthest from its value where the kept ones have met theirs, the bodies deformed and driven, and
+  /// moved by so many parts of the extent; and how far. Infinite where the kept ones are not met.
+  std::pair<Index, double> departure(const std::vector<Index>& kept, int sample, double moved) const {
+    VectorXd wanted = rows_.values(start_, 0, nullptr);
+    Index end = 0;
+    for (const Entry& entry : entries_) {
+      end += static_cast<Index>(entry.rows.size());
+      if (entry.driven) wanted[end - 1] += 0.1 * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
+    }
+    VectorXd q = start_;
+    for (Index i = 0; i < q.size(); ++i)
+      q[i] += (frame_[i] ? moved : 1) * scale_[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
+    MatrixXd gradient;
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      const VectorXd off = rows_.values(q, 0, &gradient) - wanted;
+      const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_squares(gradient(kept, Eigen::all) *
+                                                                           scale_.asDiagonal());
+      q -= scale_.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
+    }
+    const VectorXd off = (rows_.values(q, 0, nullptr) - wanted).cwiseAbs();
+    if (!(VectorXd(off(kept)).norm() <= 1e-11 * std::max(plan_.extent, 1.0))) return {0, INFINITY};
+    Index row = 0;
+    const double far = off.maxCoeff(&row);
+    return {row, far};
+  }
+
+ private:
+  void add_body(int b) {
+    const Index first = start_.size(), k = reduced_[b].body.coordinates();
+    first_[b] = first;
+    start_.conservativeResize(first + 3 + k), scale_.conservativeResize(first + 3 + k);
+    start_.segment<3>(first) = plan_.bodies[b].pose;
+    start_.tail(k).setZero();
+    scale_.segment<3>(first) << plan_.extent, plan_.extent, 1;
+    scale_.tail(k).setConstant(1e-2 * plan_.extent * std::sqrt(reduced_[b].body.inertia.m));
+    frame_.resize(static_cast<std::size_t>(first + 3 + k), 0);
+    std::fill_n(frame_.begin() + first, 3, 1);
+  }
+
+  Marker marker(const Anchor& place) const {
+    if (place.ground()) return Marker::ground(place.x.head<2>());
+    const body::PlaceMap map = place_map(plan_, reduced_[place.body], place);
+    Marker at;
+    at.framed = true;
+    at.coordinates.resize(static_cast<std::size_t>(3 + reduced_[place.body].body.coordinates()));
+    std::iota(at.coordinates.begin(), at.coordinates.end(), static_cast<int>(first_.at(place.body)));
+    at.x = (plan_.bodies[place.body].spec.rigid ? place.x : Eigen::Vector3d(map.x)).head<2>();
+    at.S = map.S, at.psi = map.psi;
+    return at;
+  }
+  Eigen::Vector3d pose(const Marker& marker) const {
+    VectorXd q = VectorXd::Zero(static_cast<Index>(marker.coordinates.size()));
+    for (Index i = 0; i < q.size(); ++i) q[i] = start_[marker.coordinates[i]];
+    const VectorXd none = VectorXd::Zero(q.size());
+    dynamics::Pose at;
+    dynamics::pose(marker, q, none, none, at);
+    return at.y;
+  }
+
+  void add(int j, const std::vector<int>& rows) {
+    const Joint& joint = plan_.scene.joints[j];
+    std::array<Marker, 2> places{marker(plan_.joints[j][0]), marker(plan_.joints[j][1])};
+    for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
+      if (plan_.joints[j][i].ground() && std::isnan(places[i].x.x())) places[i].x = pose(places[1 - i]).head<2>();
+    dynamics::Constraint constraint = dynamics::Revolute{};
+    if (joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven) constraint = dynamics::Clamp{};
     if (joint.kind == Joint::Kind::prismatic) {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
-      hold.directions << -axis.y(), axis.x(), 0, 0, 0, 1;
+      constraint = dynamics::Prismatic{rotation_matrix(-pose(places[0])[2]) * Eigen::Vector2d(-axis.y(), axis.x())};
     }
-    hold.marker.framed = true;
-    hold.marker.coordinates.resize(3 + k);
-    std::iota(hold.marker.coordinates.begin(), hold.marker.coordinates.end(), 0);
-    hold.marker.x = map.x.head<2>(), hold.marker.S = map.S, hold.marker.psi = map.psi;
+    const auto term = std::make_shared<dynamics::Joint>(places[0], places[1], constraint, -1, rows);
+    const Index count = static_cast<Index>(rows.size());
+    rows_.add(term, {term->coordinates().begin(), term->coordinates().end() - count}, count);
+    entries_.push_back({j, rows, joint.kind == Joint::Kind::driven && !rows.empty() && rows.back() == 2});
   }
-  constrained.start = VectorXd::Zero(3 + k);
-  constrained.start.head<3>() = body.pose;
-  constrained.scale = VectorXd::Constant(3 + k, 1e-2 * plan.extent * std::sqrt(reduced.body.inertia.m));
-  constrained.scale.head<3>() << plan.extent, plan.extent, 1;
-  return constrained;
-}
 
-/// The joint of a row.
-const FixedFrameBody::Hold& hold_of(const FixedFrameBody& constrained, Eigen::Index row) {
-  std::size_t h = 0;
-  for (; row >= constrained.holds[h].directions.rows(); ++h) row -= constrained.holds[h].directions.rows();
-  return constrained.holds[h];
-}
-
-/// The row that is furthest from its value where the kept ones have met theirs, the body deformed and driven; and how
-/// far.
-std::pair<Eigen::Index, double> departure(const FixedFrameBody& constrained, const std::vector<Eigen::Index>& kept,
-                                          int sample) {
-  VectorXd wanted = constrained.rows(constrained.start, nullptr);
-  Eigen::Index end = 0;
-  for (const FixedFrameBody::Hold& hold : constrained.holds) {
-    end += hold.directions.rows();
-    if (hold.driven) wanted[end - 1] += 0.1 * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
-  }
-  VectorXd q = constrained.start;
-  for (Eigen::Index i = 3; i < q.size(); ++i) q[i] += constrained.scale[i] * std::sin(1 + 1.7 * i + 2.3 * sample);
-  Eigen::MatrixXd gradient;
-  for (int iteration = 0; iteration < 8; ++iteration) {
-    const VectorXd off = constrained.rows(q, &gradient) - wanted;
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_squares(gradient(kept, Eigen::all));
-    q -= constrained.scale.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
-  }
-  Eigen::Index row = 0;
-  const double far = (constrained.rows(q, nullptr) - wanted).cwiseAbs().maxCoeff(&row);
-  return {row, far};
-}
+  const Plan& plan_;
+  const std::vector<ReducedBody>& reduced_;
+  std::map<int, Index> first_;  ///< of each body's coordinates
+  /// q at the start, and how far its entries go: deformations by a hundredth of the extent, followed by the frame
+  VectorXd start_, scale_;
+  std::vector<char> frame_;  ///< of each entry of q
+  dynamics::ConstraintRows rows_;
+  std::vector<Entry> entries_;
+};
 
 /// @throws InputError  a row that is not kept does not follow from those that are
-void check_left_out(const Plan& plan, const FixedFrameBody& constrained, int b, const std::vector<Eigen::Index>& kept) {
+void check_left_out(const Plan& plan, const JointRows& rows, int b, const std::vector<Index>& kept) {
   const Body& body = plan.bodies[b].spec;
-  Eigen::Index end = 0;
-  for (const FixedFrameBody::Hold& hold : constrained.holds) {
-    end += hold.directions.rows();
-    const Joint& joint = plan.scene.joints[hold.joint];
-    if (hold.driven && !std::binary_search(kept.begin(), kept.end(), end - 1))
+  Index end = 0;
+  for (const JointRows::Entry& entry : rows.entries()) {
+    end += static_cast<Index>(entry.rows.size());
+    const Joint& joint = plan.scene.joints[entry.joint];
+    if (entry.driven && !std::binary_search(kept.begin(), kept.end(), end - 1))
       throw InputError(
           fmt::format("{}: no basis vector of body {} represents the rotation driven by joint {}, because other joints "
                       "constrain it as well; expected attachment: joints, or modes: {{of: frame}}",
                       joint.where.text(), body.name, joint.name));
   }
   for (int sample = 0; sample < 3; ++sample) {
-    const auto [row, far] = departure(constrained, kept, sample);
+    const auto [row, far] = rows.departure(kept, sample, 0);
     if (!(far > 1e-9 * plan.extent)) continue;
     const Where& place = body.reduced ? body.reduced->where : body.frame.where;
     throw InputError(
         fmt::format("{}: several joints attach body {} to the ground, and its basis satisfies joint {} only while it "
                     "is undeformed; expected frame: pinned, from one joint to the other, with attachment: joints, or "
                     "modes: {{of: frame}}",
-                    place.text(), body.name, plan.scene.joints[hold_of(constrained, row).joint].name));
+                    place.text(), body.name, plan.scene.joints[rows.entry_of(row).joint].name));
   }
 }
 
-void leave_out(const Plan& plan, const FixedFrameBody& constrained, int b, std::vector<std::vector<int>>& independent,
-               std::vector<int>& undetermined) {
-  Eigen::MatrixXd gradient;
-  constrained.rows(constrained.start, &gradient);
-  const std::vector<Eigen::Index> kept = math::independent_rows(gradient);
-  if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
-  check_left_out(plan, constrained, b, kept);
+/// Takes the rows that are not kept out of `independent`, and notes the joints whose multipliers are not determined.
+void take_out(const Plan& plan, const JointRows& rows, const MatrixXd& gradient, const std::vector<Index>& kept,
+              std::vector<std::vector<int>>& independent, std::vector<int>& undetermined) {
   std::vector<int> joints;
-  for (const Eigen::Index row : math::undetermined_rows(gradient, kept))
-    if (const int joint = hold_of(constrained, row).joint; joints.empty() || joints.back() != joint)
-      joints.push_back(joint);
+  for (const Index row : math::undetermined_rows(gradient, kept))
+    if (const int joint = rows.entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
   refuse_undetermined(plan.scene, joints);
   undetermined.insert(undetermined.end(), joints.begin(), joints.end());
-  Eigen::Index first = 0;
-  for (const FixedFrameBody::Hold& hold : constrained.holds) {
-    const Eigen::Index n = hold.directions.rows();
-    auto& rows = independent[hold.joint];
-    rows.clear();
-    for (Eigen::Index i : kept)
-      if (i >= first && i < first + n) rows.push_back(static_cast<int>(i - first));
-    first += n;
+  Index row = 0;
+  for (const JointRows::Entry& entry : rows.entries()) {
+    auto& own = independent[entry.joint];
+    own.clear();
+    for (const int i : entry.rows)
+      if (std::binary_search(kept.begin(), kept.end(), row++)) own.push_back(i);
   }
+}
+
+/// Of a flexible body between several joints to the ground: its basis may satisfy what they hold.
+void leave_out_of_body(const Plan& plan, const std::vector<ReducedBody>& reduced, int b, const std::vector<int>& joints,
+                       std::vector<std::vector<int>>& independent, std::vector<int>& undetermined) {
+  const JointRows rows(plan, reduced, joints, independent);
+  const MatrixXd gradient = rows.gradient();
+  const std::vector<Index> kept = math::independent_rows(gradient);
+  if (static_cast<Index>(kept.size()) == gradient.rows()) return;
+  check_left_out(plan, rows, b, kept);
+  take_out(plan, rows, gradient, kept, independent, undetermined);
+}
+
+/// Whether the rows that are not kept stay satisfied wherever the others do; not where they depend on these at the
+/// start alone, in a singular position.
+bool follow(const Plan& plan, const JointRows& rows, const std::vector<Index>& kept) {
+  int tried = 0;
+  for (int sample = 0; sample < 8 && tried < 4; ++sample) {
+    const double far = rows.departure(kept, sample, 0.05).second;
+    if (far > 1e-8 * plan.extent && std::isfinite(far)) return false;
+    if (std::isfinite(far)) ++tried;
+  }
+  return tried > 0;
+}
+
+/// Of all bodies with a frame: what remains redundant (a third parallel crank, a second guide on the same line).
+void leave_out_of_mechanism(const Plan& plan, const std::vector<ReducedBody>& reduced, const std::vector<int>& joints,
+                            std::vector<std::vector<int>>& independent, std::vector<int>& undetermined,
+                            std::vector<std::string>& notes) {
+  const JointRows rows(plan, reduced, joints, independent);
+  const MatrixXd gradient = rows.gradient();
+  const std::vector<Index> kept = math::independent_rows(gradient);
+  if (static_cast<Index>(kept.size()) == gradient.rows() || !follow(plan, rows, kept)) return;
+  std::map<int, std::size_t> before;
+  for (const int j : joints) before[j] = independent[j].size();
+  take_out(plan, rows, gradient, kept, independent, undetermined);
+  for (const auto& [j, count] : before)
+    if (const std::size_t left_out = count - independent[j].size(); left_out > 0)
+      notes.push_back(fmt::format("joint {}: {} of its {} constraints are redundant with other joints and eliminated",
+                                  plan.scene.joints[j].name, left_out, count));
+}
+
+/// @throws InputError  a joint that an event unlocks is redundant at the start: the rows that it makes redundant would
+/// have to come back
+void refuse_switched(const Plan& plan, const std::vector<ReducedBody>& reduced, const std::vector<int>& always,
+                     const std::vector<int>& switched, const std::vector<std::vector<int>>& independent) {
+  if (switched.empty()) return;
+  std::vector<int> joints = always;
+  joints.insert(joints.end(), switched.begin(), switched.end());
+  const JointRows rows(plan, reduced, joints, independent);
+  const MatrixXd gradient = rows.gradient();
+  const std::vector<Index> kept = math::independent_rows(gradient);
+  if (static_cast<Index>(kept.size()) == gradient.rows() || !follow(plan, rows, kept)) return;
+  Index row = 0;
+  while (row < static_cast<Index>(kept.size()) && kept[row] == row) ++row;
+  const Joint& joint = plan.scene.joints[rows.entry_of(row).joint];
+  throw InputError(fmt::format(
+      "{}: joint {} is redundant with other joints, and an event unlocks it; expected joints that constrain "
+      "different motions",
+      joint.where.text(), joint.name));
+}
+
+/// Whether its coordinates are those of a frame and of a basis.
+bool has_frame(const Plan& plan, const std::vector<ReducedBody>& reduced, int b) {
+  return plan.bodies[b].spec.rigid || reduced[b].basis || plan.bodies[b].spec.reduced;
 }
 
 }  // namespace
@@ -170,14 +260,15 @@ int joint_rows(const Joint& joint) {
 }
 
 std::vector<std::vector<int>> independent_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
-                                               std::vector<int>& undetermined) {
+                                               const std::map<std::string, JointSwitches>& switches,
+                                               std::vector<int>& undetermined, std::vector<std::string>& notes) {
   std::vector<std::vector<int>> independent;
   for (const Joint& joint : plan.scene.joints) {
     independent.emplace_back(joint_rows(joint));
     std::iota(independent.back().begin(), independent.back().end(), 0);
   }
   for (int b = 0; b < static_cast<int>(reduced.size()); ++b) {
-    if (plan.bodies[b].spec.rigid || (!reduced[b].basis && !plan.bodies[b].spec.reduced)) continue;
+    if (plan.bodies[b].spec.rigid || !has_frame(plan, reduced, b)) continue;
     std::vector<int> joints;
     std::set<PetscInt> nodes;
     for (std::size_t j = 0; j < plan.joints.size(); ++j) {
@@ -189,8 +280,21 @@ std::vector<std::vector<int>> independent_rows(const Plan& plan, const std::vect
       nodes.insert(first.ground() ? second.node : first.node);
     }
     if (nodes.size() < 2 || nodes.size() < joints.size()) continue;  // joints at one place contradict
-    leave_out(plan, fixed_frame_body(plan, reduced[b], b, joints), b, independent, undetermined);
+    leave_out_of_body(plan, reduced, b, joints, independent, undetermined);
   }
+  std::vector<int> always, switched;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto framed = [&](const Anchor& place) { return place.ground() || has_frame(plan, reduced, place.body); };
+    const auto found = switches.find(plan.scene.joints[j].name);
+    if (independent[j].empty() || !framed(plan.joints[j][0]) || !framed(plan.joints[j][1])) continue;
+    const bool unlocked = found != switches.end() && found->second.joint;
+    if (!unlocked)
+      always.push_back(static_cast<int>(j));
+    else if (found->second.joint->closed)
+      switched.push_back(static_cast<int>(j));
+  }
+  leave_out_of_mechanism(plan, reduced, always, independent, undetermined, notes);
+  refuse_switched(plan, reduced, always, switched, independent);
   return independent;
 }
 

@@ -12,12 +12,16 @@ int joint_rows(const Joint& joint);
 /// ground repeat one another: a beam hinged at both ends keeps its chord in every column, and the second hinge says
 /// again what the first one said along the beam. A row is left out if its gradient at the start depends on those before
 /// it, and if it stays satisfied wherever these do: shown at positions with the other rows met and the columns drawn at
-/// random.
+/// random. Of what remains, rows between bodies with a frame (rigid, reduced, from files) that no event switches are
+/// left out likewise, with the bodies moved, too: a third parallel crank.
 /// @throws InputError  a row that a function of time drives depends on others: no column follows it; or
 ///                     the row is implied to first order only: the columns leave the joints as the body deforms (the
-///                     frame does not pass through them). Collective; replicated.
+///                     frame does not pass through them); or a redundant joint is one that an event unlocks.
+///                     Collective; replicated.
 /// @param undetermined  receives the joints whose multipliers the rows do not determine
+/// @param notes  a line for each joint that loses rows to other bodies' joints
 std::vector<std::vector<int>> independent_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
-                                               std::vector<int>& undetermined);
+                                               const std::map<std::string, JointSwitches>& switches,
+                                               std::vector<int>& undetermined, std::vector<std::string>& notes);
 
 }  // namespace floe::assembly

@@ -24,9 +24,9 @@ int SpatialRows::seen(int coordinate) {
 void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& places,
                       const dynamics::SpatialConstraint& constraint) {
   const int rows = dynamics::rows(constraint);
-  Entry entry{joint, std::make_shared<dynamics::SpatialJoint>(places[0], places[1], constraint, -1), {}, rows};
-  for (std::size_t i = 0; i + rows < entry.term->coordinates().size(); ++i)
-    entry.coordinates.push_back(seen(entry.term->coordinates()[i]));
+  const auto term = std::make_shared<dynamics::SpatialJoint>(places[0], places[1], constraint, -1);
+  std::vector<Index> at;
+  for (std::size_t i = 0; i + rows < term->coordinates().size(); ++i) at.push_back(seen(term->coordinates()[i]));
   for (const dynamics::SpatialMarker& place : places) {
     if (place.framed() && !frames_.contains(place.coordinates[0])) {
       Frame frame;
@@ -48,7 +48,8 @@ void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& p
   }
   for (const dynamics::SpatialRow& row : constraint.rows)
     unit_.push_back(std::holds_alternative<dynamics::Product>(row) ? 1 : plan_.extent);
-  entries_.push_back(std::move(entry));
+  rows_.add(term, std::move(at), rows);
+  joints_.push_back(joint), counts_.push_back(rows);
 }
 
 VectorXd SpatialRows::scales() const {
@@ -68,37 +69,13 @@ MatrixXd SpatialRows::directions() const {
 }
 
 VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) const {
-  const Index count = static_cast<Index>(unit_.size());
-  VectorXd C(count);
-  if (gradient) *gradient = MatrixXd::Zero(count, q.size());
-  Index first = 0;
-  for (const Entry& entry : entries_) {
-    const Index n = static_cast<Index>(entry.coordinates.size());
-    VectorXd own = VectorXd::Zero(n + entry.rows), none = VectorXd::Zero(n + entry.rows), r = none;
-    for (Index i = 0; i < n; ++i) own[i] = q[entry.coordinates[i]];
-    const dynamics::Motion motion{t, own, none, none};
-    entry.term->residual(motion, r);
-    C.segment(first, entry.rows) = r.tail(entry.rows);
-    if (gradient) {
-      MatrixXd J = MatrixXd::Zero(n + entry.rows, n + entry.rows);
-      entry.term->tangent(motion, {0, 0, 0}, J);
-      for (Index i = 0; i < n; ++i)
-        gradient->block(first, entry.coordinates[i], entry.rows, 1) += J.block(n, i, entry.rows, 1);
-    }
-    first += entry.rows;
-  }
+  VectorXd C = rows_.values(q, t, gradient);
   if (gradient) *gradient = *gradient * directions();
-  for (Index i = 0; i < count; ++i) {
+  for (Index i = 0; i < C.size(); ++i) {
     C[i] /= unit_[i];
     if (gradient) gradient->row(i) /= unit_[i];
   }
   return C;
-}
-
-const SpatialRows::Entry& SpatialRows::entry_of(Index row) const {
-  std::size_t e = 0;
-  for (; row >= entries_[e].rows; ++e) row -= entries_[e].rows;
-  return entries_[e];
 }
 
 /// The nearest configuration in which the kept rows are met; NaN where none is found.
@@ -117,7 +94,7 @@ VectorXd SpatialRows::allowed(const VectorXd& q, double t, const std::vector<Ind
 
 void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
   const auto complain = [&](Index row, const std::string& when) {
-    const Joint& joint = plan_.scene.joints[entry_of(row).joint];
+    const Joint& joint = plan_.scene.joints[joint_of(row)];
     throw InputError(
         fmt::format("{}: joint {} is redundant with other joints and inconsistent with them {}; expected joints "
                     "whose constraints "
@@ -146,35 +123,25 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
 /// as they can be followed. What nobody can foresee the motion finds (SpatialJoint::constraint_status).
 void SpatialRows::follow_drives(const VectorXd& start, double end, const std::vector<Index>& kept,
                                 const std::function<void(Index, const std::string&)>& complain) const {
-  const auto driven = [&](const Entry& entry) {
-    const Joint::Kind kind = plan_.scene.joints[entry.joint].kind;
+  const auto driven = [&](int joint) {
+    const Joint::Kind kind = plan_.scene.joints[joint].kind;
     return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide;
   };
-  if (!std::any_of(entries_.begin(), entries_.end(), driven)) return;
+  if (!std::any_of(joints_.begin(), joints_.end(), driven)) return;
   constexpr int samples = 256;
   VectorXd x = start;
   for (int sample = 1; sample <= samples; ++sample) {
     const double t = end * sample / samples;
     x = allowed(x, t, kept);
-    if (!x.allFinite() || !on_branch(x, t)) return;
+    if (!x.allFinite() || !rows_.satisfied(x, t)) return;
     Index row = 0;
     if (values(x, t, nullptr).cwiseAbs().maxCoeff(&row) > 1e-6) complain(row, fmt::format("at t = {:.6g}", t));
   }
 }
 
-bool SpatialRows::on_branch(const VectorXd& q, double t) const {
-  return std::all_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    const Index n = static_cast<Index>(entry.coordinates.size());
-    VectorXd own = VectorXd::Zero(n + entry.rows);
-    const VectorXd none = own;
-    for (Index i = 0; i < n; ++i) own[i] = q[entry.coordinates[i]];
-    return entry.term->constraint_status({t, own, none, none}) == dynamics::ConstraintStatus::satisfied;
-  });
-}
-
 std::vector<std::vector<int>> SpatialRows::independent(std::string& notes, std::vector<int>& undetermined) const {
   std::vector<std::vector<int>> all;
-  if (entries_.empty()) return all;
+  if (joints_.empty()) return all;
   MatrixXd gradient;
   values(VectorXd::Map(start_.data(), static_cast<Index>(start_.size())), 0, &gradient);
   const std::vector<Index> kept = math::independent_rows(gradient, 1e-3);
@@ -182,22 +149,23 @@ std::vector<std::vector<int>> SpatialRows::independent(std::string& notes, std::
     check_left_out(kept);
     std::vector<int> joints;
     for (const Index row : math::undetermined_rows(gradient, kept))
-      if (const int joint = entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
+      if (const int joint = joint_of(row); joints.empty() || joints.back() != joint) joints.push_back(joint);
     refuse_undetermined(plan_.scene, joints);
     undetermined = std::move(joints);
   }
   Index first = 0;
-  for (const Entry& entry : entries_) {
+  for (std::size_t e = 0; e < joints_.size(); ++e) {
+    const int count = counts_[e];
     auto& rows = all.emplace_back();
     for (Index i : kept)
-      if (i >= first && i < first + entry.rows) rows.push_back(static_cast<int>(i - first));
+      if (i >= first && i < first + count) rows.push_back(static_cast<int>(i - first));
     int left_out = 0;  // rows without gradient are those that the columns meet by themselves
-    for (Index i = first; i < first + entry.rows; ++i)
+    for (Index i = first; i < first + count; ++i)
       if (!std::binary_search(kept.begin(), kept.end(), i) && gradient.row(i).norm() > 1e-6) ++left_out;
     if (left_out > 0)
       notes += fmt::format("joint {}: {} of its {} constraints are redundant with other joints and eliminated\n",
-                           plan_.scene.joints[entry.joint].name, left_out, entry.rows);
-    first += entry.rows;
+                           plan_.scene.joints[joints_[e]].name, left_out, count);
+    first += count;
   }
   return all;
 }

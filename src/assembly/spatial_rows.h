@@ -4,6 +4,7 @@
 #include <map>
 
 #include "floe/assembly/model.h"
+#include "floe/dynamics/constraint_rows.h"
 #include "floe/dynamics/spatial_joint.h"
 
 namespace floe::assembly {
@@ -25,12 +26,6 @@ class SpatialRows {
   std::vector<std::vector<int>> independent(std::string& notes, std::vector<int>& undetermined) const;
 
  private:
-  struct Entry {
-    int joint;
-    std::shared_ptr<dynamics::SpatialJoint> term;
-    std::vector<int> coordinates;  // without multipliers, among those that any joint sees
-    int rows;
-  };
   /// A frame's six coordinates among those seen; directions of change rotate it about the first place that joints have
   /// on it, so that places far away from the frame have gradients of a common size: dR = about dx.
   struct Frame {
@@ -49,8 +44,7 @@ class SpatialRows {
   void check_left_out(const std::vector<Eigen::Index>& kept) const;
   void follow_drives(const Eigen::VectorXd& start, double end, const std::vector<Eigen::Index>& kept,
                      const std::function<void(Eigen::Index, const std::string&)>& complain) const;
-  bool on_branch(const Eigen::VectorXd& q, double t) const;
-  const Entry& entry_of(Eigen::Index row) const;
+  int joint_of(Eigen::Index row) const { return joints_[rows_.term_of(row)]; }
 
   const Plan& plan_;
   const Eigen::VectorXd& all_;  // coordinates at the start
@@ -60,8 +54,9 @@ class SpatialRows {
   double greatest_reach_ = 0;          // of elastic coordinates
   std::vector<char> moves_;            // of a frame; others are elastic
   std::vector<double> unit_;           // of each row
-  std::vector<Entry> entries_;
-  std::map<int, Frame> frames_;  // by the local index of R
+  dynamics::ConstraintRows rows_;      // over these coordinates
+  std::vector<int> joints_, counts_;   // of each of their terms
+  std::map<int, Frame> frames_;        // by the local index of R
 };
 
 }  // namespace floe::assembly

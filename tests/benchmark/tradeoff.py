@@ -9,7 +9,8 @@ import subprocess
 import sys
 
 # In the order of the document. rotating_blade has no simulation, only spectra.
-EXAMPLES = ["cantilever", "robot_arm", "pendulum", "slider_crank", "spin_up", "shaken_plate", "satellite", "blade"]
+EXAMPLES = ["cantilever", "robot_arm", "pendulum", "slider_crank", "spin_up", "start", "controlled_arm", "shaken_plate", "satellite",
+            "rotor", "blade"]
 NOTES = "tradeoff_notes.md"
 
 

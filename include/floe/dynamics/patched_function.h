@@ -4,7 +4,7 @@
 
 #include "floe/dynamics/time_function.h"
 
-namespace floe::assembly {
+namespace floe::dynamics {
 
 /// A polynomial of fourth degree in (t - begin) / (end - begin).
 struct Patch {
@@ -16,6 +16,6 @@ struct Patch {
 };
 
 /// The function with patches in its place where there are some; before `begin` it is what it is there.
-dynamics::TimeFunction patched(dynamics::TimeFunction function, std::vector<Patch> patches, double begin);
+TimeFunction patched(TimeFunction function, std::vector<Patch> patches, double begin);
 
-}  // namespace floe::assembly
+}  // namespace floe::dynamics

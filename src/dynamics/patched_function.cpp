@@ -1,10 +1,10 @@
-#include "smooth_drive.h"
+#include "floe/dynamics/patched_function.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace floe::assembly {
+namespace floe::dynamics {
 
 double Patch::derivative(int order, double t) const {
   const double h = end - begin, s = (t - begin) / h;
@@ -13,7 +13,7 @@ double Patch::derivative(int order, double t) const {
   return sum / std::pow(h, order);
 }
 
-dynamics::TimeFunction patched(dynamics::TimeFunction function, std::vector<Patch> patches, double begin) {
+TimeFunction patched(TimeFunction function, std::vector<Patch> patches, double begin) {
   const auto with = [patches = std::move(patches), begin](std::function<double(double)> f, int order) {
     return [patches, begin, f = std::move(f), order](double t) {
       t = std::max(t, begin);
@@ -26,4 +26,4 @@ dynamics::TimeFunction patched(dynamics::TimeFunction function, std::vector<Patc
           with(std::move(function.acceleration), 2)};
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::dynamics
