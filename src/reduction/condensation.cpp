@@ -6,6 +6,7 @@
 #include "floe/petsc/values.h"
 #include "floe/reduction/products.h"
 #include "floe/reduction/projection.h"
+#include "tall_skinny.h"
 
 namespace floe::reduction {
 
@@ -106,8 +107,7 @@ body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, 
   for (Index p = 0; p < pairs; ++p)
     if (with_derivative(e.pairs[static_cast<std::size_t>(p)]))
       F.col(k + p) -= free * (free.transpose() * F.col(k + p)).eval();
-  const Index rows = std::min(F.rows(), F.cols());
-  result.F = Eigen::HouseholderQR<MatrixXd>(F).matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  result.F = triangle(std::move(F));
   return result;
 }
 

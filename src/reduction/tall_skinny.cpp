@@ -18,14 +18,13 @@ void factor_in_place(Eigen::MatrixXd& A, Eigen::Index count) {
   for (Eigen::Index j = 0; j < A.cols(); ++j) A.col(j).segment(j + 1, A.cols() - j - 1).setZero();
 }
 
-/// R of a QR of the rows, at most as many rows as columns.
+}  // namespace
+
 Eigen::MatrixXd triangle(Eigen::MatrixXd rows) {
   if (rows.rows() <= rows.cols() || rows.cols() == 0) return rows;
   factor_in_place(rows, rows.rows());
   return rows.topRows(rows.cols());
 }
-
-}  // namespace
 
 TallSkinnyQr::TallSkinnyQr(Eigen::Index columns) : buffer_(Eigen::MatrixXd::Zero(2 * columns + 1024, columns)) {}
 

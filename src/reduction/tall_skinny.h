@@ -21,6 +21,9 @@ class TallSkinnyQr {
   Eigen::Index filled_ = 0;
 };
 
+/// R of LAPACK's QR of the rows, at most as many rows as columns; fewer rows are left as they are.
+Eigen::MatrixXd triangle(Eigen::MatrixXd rows);
+
 /// One triangle from those of all ranks, in rank order, the same on all. Collective.
 Eigen::MatrixXd combine(MPI_Comm comm, const Eigen::MatrixXd& mine);
 
