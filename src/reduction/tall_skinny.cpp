@@ -2,6 +2,7 @@
 
 #include <petscblaslapack.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace floe::reduction {
@@ -26,10 +27,13 @@ Eigen::MatrixXd triangle(Eigen::MatrixXd rows) {
   return rows.topRows(rows.cols());
 }
 
-TallSkinnyQr::TallSkinnyQr(Eigen::Index columns) : buffer_(Eigen::MatrixXd::Zero(2 * columns + 1024, columns)) {}
+TallSkinnyQr::TallSkinnyQr(Eigen::Index columns) : buffer_(64, columns) {}
 
 Eigen::Ref<Eigen::MatrixXd> TallSkinnyQr::rows(Eigen::Index count) {
-  if (filled_ + count > buffer_.rows()) shrink();
+  const Eigen::Index most = 2 * buffer_.cols() + 1024;
+  if (filled_ + count > most) shrink();
+  if (filled_ + count > buffer_.rows())
+    buffer_.conservativeResize(std::min(most, 2 * (filled_ + count)), Eigen::NoChange);
   filled_ += count;
   auto added = buffer_.middleRows(filled_ - count, count);
   added.setZero();
@@ -47,6 +51,7 @@ Eigen::MatrixXd combine(MPI_Comm comm, const Eigen::MatrixXd& mine) {
   int size = 1, rank = 0;
   MPI_Comm_size(comm, &size);
   MPI_Comm_rank(comm, &rank);
+  if (size == 1) return triangle(mine);
   const Eigen::Index columns = mine.cols();
   const int count = static_cast<int>(mine.rows());
   std::vector<int> rows(size), sizes(size), first(size, 0);
