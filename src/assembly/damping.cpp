@@ -74,11 +74,15 @@ fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>
       if (here.body != index || there.body < 0 || here.map || away[there.body] >= nearest) continue;
       hold_place_by_joint(plan, j, here, constrained);
     }
-  const fem::Conditions dependent_nodes = fem::dependent_dofs(body.structure.mesh, body.structure.dofs_per_node);
   std::sort(constrained.begin(), constrained.end());
   constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
-  fem::Conditions own;  // nodes that follow others have no motion of their own
-  std::set_difference(constrained.begin(), constrained.end(), dependent_nodes.begin(), dependent_nodes.end(),
+  return without_dependent(body.structure, constrained);
+}
+
+fem::Conditions without_dependent(const fem::Structure& structure, const fem::Conditions& constrained) {
+  const fem::Conditions dependent = fem::dependent_dofs(structure.mesh, structure.dofs_per_node);
+  fem::Conditions own;
+  std::set_difference(constrained.begin(), constrained.end(), dependent.begin(), dependent.end(),
                       std::back_inserter(own));
   return own;
 }

@@ -25,9 +25,9 @@ using math::skew;
 namespace {
 
 /// Dofs that joints to the ground hold; of a body in a frame that it shares, PlannedBody::constrained has those of the
-/// joint to the body that the frame is of.
+/// joint to the body that the frame is of. Without nodes that follow others (rigid edges), which these may move.
 fem::Conditions held_by_ground(const Plan& plan, int b) {
-  if (plan.bodies[b].parent < 0) return plan.bodies[b].constrained;
+  if (plan.bodies[b].parent < 0) return without_dependent(plan.bodies[b].structure, plan.bodies[b].constrained);
   fem::Conditions held;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const auto& [first, second] = plan.joints[j];

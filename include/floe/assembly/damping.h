@@ -17,6 +17,8 @@ namespace floe::assembly {
 fem::Conditions constrained_for_damping(const Plan& plan, int body);
 /// Likewise of a body of several, `whole`, as one: joints among these do not count.
 fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
+/// `constrained`, in order, without dofs of nodes that follow others, which have no motion of their own.
+fem::Conditions without_dependent(const fem::Structure& structure, const fem::Conditions& constrained);
 
 /// What damping.mass acts on: the displacement in the frame less its rigid part as the body's joints see it.
 /// Collective.
