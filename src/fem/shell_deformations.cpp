@@ -10,6 +10,16 @@ Eigen::Vector3d strain(const Eigen::Vector2d& d, const Eigen::Vector2d& g) {
   return {d.x() * g.x(), d.y() * g.y(), d.x() * g.y() + d.y() * g.x()};
 }
 
+/// Curvature of the corners' rotations alone, linear in between.
+template <class Rows>
+void add_linear_curvature(const Geometry& t, Rows&& rows) {
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& g = t.gradient[i];
+    rows.col(6 * i + 4) += strain({1, 0}, g);  // beta_x = rotation_y
+    rows.col(6 * i + 3) -= strain({0, 1}, g);  // beta_y = -rotation_x
+  }
+}
+
 /// Rotations of the normal: beta = sum L_i beta_i - sum_k 4 L_i L_j d_k a_k, with a_k from w and beta at the ends of
 /// edge k = ij, d_k = x_j - x_i. Its curvature is a mean and, per a_k, a part that varies linearly about it.
 /// Source: Batoz, Bathe & Ho 1980 (their mid-side rotations, written in d_k and a_k).
@@ -19,11 +29,7 @@ void bend(const Geometry& t, const Matrix3& bending, Deformations& out) {
   Matrix3 of_edges;  // column k: mean curvature per a_k
   for (int k = 0; k < 3; ++k) of_edges.col(k) = strain(t.edge[k].along, 4.0 / 3 * t.gradient[k]);
   mean.noalias() += of_edges.lazyProduct(out.rows.middleRows<3>(3 * edge_bending));
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d& g = t.gradient[i];
-    mean.col(6 * i + 4) += strain({1, 0}, g);  // beta_x = rotation_y
-    mean.col(6 * i + 3) -= strain({0, 1}, g);  // beta_y = -rotation_x
-  }
+  add_linear_curvature(t, mean);
   Matrix3& S = out.stiffness[edge_bending];  // by the middles of the edges, exact for squares of linear functions
   S.setZero();
   for (int m = 0; m < 3; ++m) {
@@ -89,8 +95,18 @@ Deformations deformations(const Geometry& geometry, const ShellSection& section)
   bend(geometry, section.bending, out);
   drill(geometry, section, out);
   out.stiffness[mean_strain] = section.A;
-  out.rows.middleRows<3>(3 * mean_strain).noalias() +=
-      section.coupling.lazyProduct(out.rows.middleRows<3>(3 * mean_curvature));
+  // eps + C kappa with the curvature of a field like that of eps: a plane at a distance c, C = c I, is then stretched
+  // by the corners' u + c beta alone. The bending of the edges is of higher degree, and nothing in eps could cancel it.
+  // The drilling rotations are relative to that plane, too.
+  Rows18 linear = Rows18::Zero();
+  add_linear_curvature(geometry, linear);
+  out.rows.middleRows<3>(3 * mean_strain).noalias() += section.coupling.lazyProduct(linear);
+  const double height = (section.coupling(0, 0) + section.coupling(1, 1)) / 2;
+  auto drill = out.rows.middleRows<3>(3 * drilling);
+  for (int i = 0; i < 3; ++i) {
+    drill.col(6 * i + 4).array() += height / 2 * geometry.gradient[i].y();
+    drill.col(6 * i + 3).array() += height / 2 * geometry.gradient[i].x();
+  }
   to_body_axes(out.rows, geometry.axes);
   return out;
 }

@@ -35,7 +35,7 @@ struct SurfacePoint {
 /// (ShellSection::strains).
 ///
 ///   U(q) = 1/2 a [ e' A e + mean of kappa' D* kappa ] + 3/8 beta_0 theta' K_theta theta,
-///   e = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y),   L q = mean membrane strain + C mean curvature,   C = A^-1 B
+///   e = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y),   L q = mean membrane strain + C corner curvature,   C = A^-1 B
 ///   second_order:  e = L q + 1/2 (|u_x|^2, |u_y|^2, 2 u_x.u_y),  u = (u, v, w)
 ///
 /// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
@@ -51,9 +51,11 @@ struct SurfacePoint {
 /// rigid regions: they rotate the normal n by exp(theta), so that the slopes in the bending rows are those of
 /// theta + 1/2 (theta.n) theta x n, bending is a strain, too, and K_b = 0. What is left of a rigid rotation's energy is
 /// of order a^6 in bending and drilling. Von Karman's have slopes instead of rotation vectors, K_b q linear. The
-/// membrane force is taken as constant over the element: coupling B acts on the mean curvature, and the rest of the
-/// curvature bends with D*. Exact for states of constant strain and curvature with any A, B, D; a sum of squares
-/// whenever [A B; B D] is positive definite.
+/// membrane force is taken as constant over the element: coupling B acts on the curvature of the corners' rotations,
+/// linear in between (beta_x,x, beta_y,y, beta_x,y + beta_y,x), a field like that of the membrane, and all of DKT's
+/// bends with D*. A plane at a distance c from the nodes (C = c I) is so stretched as by rigid arms c along the normal,
+/// the drilling rotations relative to that plane: with DKT's mean curvature an offset locks. Exact for states of
+/// constant strain and curvature with any A, B, D; a sum of squares whenever [A B; B D] is positive definite.
 ///
 /// Mass points stand at the middles of the edges, above and below the centre of mass by the radius of inertia: there
 /// DKT's deflection (the edge's cubic) and rotations are known. Mass and its first and second moments are exact;
