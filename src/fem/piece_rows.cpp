@@ -182,7 +182,9 @@ void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const Sh
     if (parts.line) piece.line.push_back({third, false, centroid + g.axes * at, N});
     if (!parts.mass) continue;
     const Eigen::Vector3d normal = g.axes.col(2);
-    piece.mass.push_back({section.mass * third, false, centroid + g.axes * at + z * normal, N + z * rotation});
+    shell::Rows18 centre = N;
+    centre += g.axes.leftCols<2>().lazyProduct(z * middle.arms);
+    piece.mass.push_back({section.mass * third, false, centroid + g.axes * at + z * normal, centre});
     if (r > 0) piece.mass.push_back({section.mass * third, true, r * normal, r * rotation});
   }
 }

@@ -44,8 +44,10 @@ Middle middle(const Geometry& geometry, int k) {
   }
   add_beta(m.rows.row(2), edge.to, edge.along / 8);
   add_beta(m.rows.row(2), edge.from, -edge.along / 8);
+  m.arms = m.rows.bottomRows<2>();
   for (int d = 0; d < 2; ++d) add_edge_bending(m.rows.row(3 + d), edge, -edge.along[d]);
   to_body_axes(m.rows, geometry.axes);
+  to_body_axes(m.arms, geometry.axes);
   return m;
 }
 

@@ -73,8 +73,9 @@ Matrix18 shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& sec
   const double share = std::sqrt(section.mass * g.area / 3);
   Matrix18 M = Matrix18::Zero();
   for (int k = 0; k < 3; ++k) {
-    Eigen::Matrix<double, 5, 18> rows = shell::middle(g, k).rows;
-    rows.topRows<2>() += section.mass_centre * rows.bottomRows<2>();
+    const shell::Middle middle = shell::middle(g, k);
+    Eigen::Matrix<double, 5, 18> rows = middle.rows;
+    rows.topRows<2>() += section.mass_centre * middle.arms;
     rows.topRows<3>() *= share;
     rows.bottomRows<2>() *= share * section.mass_radius;
     add_squares<5>(M, rows, rows, k);
@@ -126,7 +127,7 @@ ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& secti
     for (const double height : heights) {
       const double z = section.mass_centre + height;
       shell::Rows18 N = middle.rows.topRows<3>();
-      N.topRows<2>() += z * middle.rows.bottomRows<2>();
+      N.topRows<2>() += section.mass_centre * middle.arms + height * middle.rows.bottomRows<2>();
       const Eigen::Vector3d at(middle.at.x(), middle.at.y(), z);
       maps.mass.push_back({section.mass * g.area / (3.0 * heights.size()), centroid + g.axes * at, g.axes * N});
     }

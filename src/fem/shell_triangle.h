@@ -124,6 +124,7 @@ void to_body_axes(Rows& rows, const Eigen::Matrix3d& axes) {
 struct Middle {
   Eigen::Vector2d at;                 ///< from the centroid
   Eigen::Matrix<double, 5, 18> rows;  ///< u, v, w, beta_x, beta_y
+  Eigen::Matrix<double, 2, 18> arms;  ///< mean beta_x, beta_y of the ends: they move a plane at an offset
 };
 Middle middle(const Geometry& geometry, int edge);
 

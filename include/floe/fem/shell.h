@@ -53,9 +53,10 @@ struct SurfacePoint {
 /// of order a^6 in bending and drilling. Von Karman's have slopes instead of rotation vectors, K_b q linear. The
 /// membrane force is taken as constant over the element: coupling B acts on the curvature of the corners' rotations,
 /// linear in between (beta_x,x, beta_y,y, beta_x,y + beta_y,x), a field like that of the membrane, and all of DKT's
-/// bends with D*. A plane at a distance c from the nodes (C = c I) is so stretched as by rigid arms c along the normal,
-/// the drilling rotations relative to that plane: with DKT's mean curvature an offset locks. Exact for states of
-/// constant strain and curvature with any A, B, D; a sum of squares whenever [A B; B D] is positive definite.
+/// bends with D*. A plane at a distance c from the nodes (C = c I) is thus stretched as if rigid arms c along the
+/// normal carried it, the drilling rotations relative to that plane: with DKT's mean curvature an offset locks. Exact
+/// for states of constant strain and curvature with any A, B, D; a sum of squares whenever [A B; B D] is positive
+/// definite.
 ///
 /// Mass points stand at the middles of the edges, above and below the centre of mass by the radius of inertia: there
 /// DKT's deflection (the edge's cubic) and rotations are known. Mass and its first and second moments are exact;

@@ -80,12 +80,14 @@ TEST_CASE("shell triangle: an offset is a rigid arm along the normal at every co
   const std::vector<fem::Ply> plies{{testing::carbon, 1e-3, 0.4}, {testing::carbon, 2e-3, -0.9}};
   const fem::TriangleNodes nodes = rotated(flat);
   const Vector3d normal = rotation.col(2);
-  const MatrixXd K = fem::shell_triangle_stiffness(nodes, fem::shell_section(plies, 0, rotation.col(0)));
+  const fem::ShellSection centred = fem::shell_section(plies, 0, rotation.col(0));
+  const MatrixXd K = fem::shell_triangle_stiffness(nodes, centred), M = fem::shell_triangle_mass(nodes, centred);
   for (const double offset : {2e-3, -0.04}) {
     MatrixXd arms = MatrixXd::Zero(18, 18);
     for (int i = 0; i < 3; ++i) arms.block<6, 6>(6 * i, 6 * i) = fem::rigid_arm(Vector3d(offset * normal));
     const fem::ShellSection section = fem::shell_section(plies, offset, rotation.col(0));
     CHECK(relative_error(fem::shell_triangle_stiffness(nodes, section), arms.transpose() * K * arms) < 1e-12);
+    CHECK(relative_error(fem::shell_triangle_mass(nodes, section), arms.transpose() * M * arms) < 1e-12);
   }
 }
 
