@@ -42,7 +42,6 @@ void PlanarAssembly::add_joint(std::size_t j, const std::array<Marker, 2>& place
   const Eigen::Vector3d y[2] = {pose_at(places[0], q), pose_at(places[1], q)};
   const Eigen::Vector2d apart = (y[1] - y[0]).head<2>();
   const double offset = y[1][2] - y[0][2];
-  const int multipliers = joint_multipliers_[j];
   const bool meet = joint.kind != Joint::Kind::spring && joint.kind != Joint::Kind::prismatic;
   if (meet && apart.norm() > 1e-6 * plan_.extent)
     throw InputError(
@@ -52,29 +51,29 @@ void PlanarAssembly::add_joint(std::size_t j, const std::array<Marker, 2>& place
                     expected_to_meet(plan_, formulation_, j)));
   const auto found = switches_.find(joint.name);
   const JointSwitches switches = found == switches_.end() ? JointSwitches{} : found->second;
+  const auto constrain = [&](const dynamics::Constraint& constraint) {
+    auto term = std::make_unique<dynamics::Joint>(places[0], places[1], constraint, joint_multipliers_[j],
+                                                  joint_rows_[j], switches.joint);
+    if (plan_.extent > 0) term->extent = plan_.extent;
+    connect(j, std::move(term));
+  };
   switch (joint.kind) {
     case Joint::Kind::revolute:
-      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
-                                                   joint_rows_[j], switches.joint));
+      constrain(dynamics::Revolute{});
       if (switches.lock)
         connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, switches.first_row,
                                                      std::vector<int>{2}, switches.lock, true));
       break;
     case Joint::Kind::fixed:
-      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
-                                                   joint_rows_[j], switches.joint));
+      constrain(dynamics::Clamp{offset, {}});
       break;
     case Joint::Kind::driven:
-      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1],
-                                                   dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)},
-                                                   multipliers, joint_rows_[j], switches.joint));
+      constrain(dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)});
       break;
     case Joint::Kind::prismatic: {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
       const Eigen::Vector2d normal(-axis.y(), axis.x());
-      const dynamics::Prismatic slide{rotation_matrix(-y[0][2]) * normal, normal.dot(apart), offset};
-      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j],
-                                                   switches.joint));
+      constrain(dynamics::Prismatic{rotation_matrix(-y[0][2]) * normal, normal.dot(apart), offset});
       if (switches.lock)
         connect(j, std::make_unique<dynamics::Joint>(places[0], places[1],
                                                      dynamics::Prismatic{rotation_matrix(-y[0][2]) * axis, 0, 0},

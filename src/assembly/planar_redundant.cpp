@@ -52,8 +52,9 @@ class JointRows {
   }
 
   /// The row that is furthest from its value where the kept ones have met theirs, the bodies deformed and driven, and
-  /// moved by so many parts of the extent; and how far. Infinite where the kept ones are not met.
-  std::pair<Index, double> departure(const std::vector<Index>& kept, int sample, double moved) const {
+  /// moved by so many parts of the extent; and how far, in extents or radians. Infinite where the kept ones are not
+  /// met.
+  std::pair<Index, double> departure(const std::vector<Index>& kept, int sample, double moved, double deformed) const {
     VectorXd wanted = rows_.values(start_, 0, nullptr);
     Index end = 0;
     for (const Entry& entry : entries_) {
@@ -62,7 +63,7 @@ class JointRows {
     }
     VectorXd q = start_;
     for (Index i = 0; i < q.size(); ++i)
-      q[i] += (frame_[i] ? moved : 1) * scale_[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
+      q[i] += (frame_[i] ? moved : deformed) * scale_[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
     MatrixXd gradient;
     for (int iteration = 0; iteration < 12; ++iteration) {
       const VectorXd off = rows_.values(q, 0, &gradient) - wanted;
@@ -70,8 +71,9 @@ class JointRows {
                                                                            scale_.asDiagonal());
       q -= scale_.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
     }
-    const VectorXd off = (rows_.values(q, 0, nullptr) - wanted).cwiseAbs();
-    if (!(VectorXd(off(kept)).norm() <= 1e-11 * std::max(plan_.extent, 1.0))) return {0, INFINITY};
+    const VectorXd off =
+        (rows_.values(q, 0, nullptr) - wanted).cwiseAbs().cwiseQuotient(VectorXd::Map(unit_.data(), wanted.size()));
+    if (!(VectorXd(off(kept)).norm() <= 1e-11)) return {0, INFINITY};
     Index row = 0;
     const double far = off.maxCoeff(&row);
     return {row, far};
@@ -124,6 +126,8 @@ class JointRows {
     const auto term = std::make_shared<dynamics::Joint>(places[0], places[1], constraint, -1, rows);
     const Index count = static_cast<Index>(rows.size());
     rows_.add(term, {term->coordinates().begin(), term->coordinates().end() - count}, count);
+    const int lengths = joint.kind == Joint::Kind::prismatic ? 1 : 2;  // the rows before those of angles
+    for (const int row : rows) unit_.push_back(row < lengths && plan_.extent > 0 ? plan_.extent : 1);
     entries_.push_back({j, rows, joint.kind == Joint::Kind::driven && !rows.empty() && rows.back() == 2});
   }
 
@@ -132,7 +136,8 @@ class JointRows {
   std::map<int, Index> first_;  ///< of each body's coordinates
   /// q at the start, and how far its entries go: deformations by a hundredth of the extent, followed by the frame
   VectorXd start_, scale_;
-  std::vector<char> frame_;  ///< of each entry of q
+  std::vector<char> frame_;   ///< of each entry of q
+  std::vector<double> unit_;  ///< of each row
   dynamics::ConstraintRows rows_;
   std::vector<Entry> entries_;
 };
@@ -151,8 +156,8 @@ void check_left_out(const Plan& plan, const JointRows& rows, int b, const std::v
                       joint.where.text(), body.name, joint.name));
   }
   for (int sample = 0; sample < 3; ++sample) {
-    const auto [row, far] = rows.departure(kept, sample, 0);
-    if (!(far > 1e-9 * plan.extent)) continue;
+    const auto [row, far] = rows.departure(kept, sample, 0, 1);
+    if (!(far > 1e-9)) continue;
     const Where& place = body.reduced ? body.reduced->where : body.frame.where;
     throw InputError(
         fmt::format("{}: several joints attach body {} to the ground, and its basis satisfies joint {} only while it "
@@ -162,12 +167,18 @@ void check_left_out(const Plan& plan, const JointRows& rows, int b, const std::v
   }
 }
 
-/// Takes the rows that are not kept out of `independent`, and notes the joints whose multipliers are not determined.
-void take_out(const Plan& plan, const JointRows& rows, const MatrixXd& gradient, const std::vector<Index>& kept,
-              std::vector<std::vector<int>>& independent, std::vector<int>& undetermined) {
+/// Those whose multipliers the rows do not determine.
+std::vector<int> undetermined_joints(const JointRows& rows, const MatrixXd& gradient, const std::vector<Index>& kept) {
   std::vector<int> joints;
   for (const Index row : math::undetermined_rows(gradient, kept))
     if (const int joint = rows.entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
+  return joints;
+}
+
+/// Takes the rows that are not kept out of `independent`, and notes the joints whose multipliers are not determined.
+void take_out(const Plan& plan, const JointRows& rows, const MatrixXd& gradient, const std::vector<Index>& kept,
+              std::vector<std::vector<int>>& independent, std::vector<int>& undetermined) {
+  const std::vector<int> joints = undetermined_joints(rows, gradient, kept);
   refuse_undetermined(plan.scene, joints);
   undetermined.insert(undetermined.end(), joints.begin(), joints.end());
   Index row = 0;
@@ -191,15 +202,19 @@ void leave_out_of_body(const Plan& plan, const std::vector<ReducedBody>& reduced
 }
 
 /// Whether the rows that are not kept stay satisfied wherever the others do; not where they depend on these at the
-/// start alone, in a singular position.
-bool follow(const Plan& plan, const JointRows& rows, const std::vector<Index>& kept) {
-  int tried = 0;
-  for (int sample = 0; sample < 8 && tried < 4; ++sample) {
-    const double far = rows.departure(kept, sample, 0.05).second;
-    if (far > 1e-8 * plan.extent && std::isfinite(far)) return false;
-    if (std::isfinite(far)) ++tried;
+/// start alone, in a singular position. Near one, large moves lead to another branch: smaller ones tell.
+bool follow(const JointRows& rows, const std::vector<Index>& kept) {
+  for (const double moved : {0.05, 0.01, 0.002}) {
+    int tried = 0;
+    bool departs = false;
+    for (int sample = 0; sample < 8 && tried < 4 && !departs; ++sample) {
+      const double far = rows.departure(kept, sample, moved, 20 * moved).second;
+      if (!std::isfinite(far)) continue;
+      ++tried, departs = far > 1e-10;
+    }
+    if (tried > 0 && !departs) return true;
   }
-  return tried > 0;
+  return false;
 }
 
 /// Of all bodies with a frame: what remains redundant (a third parallel crank, a second guide on the same line).
@@ -209,7 +224,8 @@ void leave_out_of_mechanism(const Plan& plan, const std::vector<ReducedBody>& re
   const JointRows rows(plan, reduced, joints, independent);
   const MatrixXd gradient = rows.gradient();
   const std::vector<Index> kept = math::independent_rows(gradient);
-  if (static_cast<Index>(kept.size()) == gradient.rows() || !follow(plan, rows, kept)) return;
+  if (static_cast<Index>(kept.size()) == gradient.rows()) return;
+  if (!follow(rows, kept)) return refuse_undetermined(plan.scene, undetermined_joints(rows, gradient, kept));
   std::map<int, std::size_t> before;
   for (const int j : joints) before[j] = independent[j].size();
   take_out(plan, rows, gradient, kept, independent, undetermined);
@@ -229,7 +245,7 @@ void refuse_switched(const Plan& plan, const std::vector<ReducedBody>& reduced, 
   const JointRows rows(plan, reduced, joints, independent);
   const MatrixXd gradient = rows.gradient();
   const std::vector<Index> kept = math::independent_rows(gradient);
-  if (static_cast<Index>(kept.size()) == gradient.rows() || !follow(plan, rows, kept)) return;
+  if (static_cast<Index>(kept.size()) == gradient.rows() || !follow(rows, kept)) return;
   Index row = 0;
   while (row < static_cast<Index>(kept.size()) && kept[row] == row) ++row;
   const Joint& joint = plan.scene.joints[rows.entry_of(row).joint];

@@ -1,5 +1,6 @@
 #include "floe/dynamics/joints.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -126,6 +127,18 @@ void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add(e.gradient.transpose() * lambda, r);
   for (std::size_t i = 0; i < independent_.size(); ++i) r[multiplier_ + i] += e.C[independent_[i]];
+}
+
+ConstraintStatus Joint::constraint_status(const Motion& motion) const {
+  if (!holds() || !has_left_out_rows()) return ConstraintStatus::satisfied;
+  pair_.evaluate(motion, EvaluationLevel::position);
+  const Evaluation e = std::visit(Evaluate{motion, pair_, Eigen::Vector3d::Zero()}, constraint_);
+  const int lengths = std::holds_alternative<Prismatic>(constraint_) ? 1 : 2;  // the rows before those of angles
+  for (int row = 0; row < rows(constraint_); ++row)
+    if (!std::binary_search(independent_.begin(), independent_.end(), row) &&
+        !(std::abs(e.C[row]) <= 1e-3 * (row < lengths ? extent : 1)))
+      return ConstraintStatus::violated;
+  return ConstraintStatus::satisfied;
 }
 
 Wrench Joint::on_second(const Motion& motion) const {

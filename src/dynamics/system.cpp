@@ -199,19 +199,22 @@ System::FailedConstraint System::failed_constraint(double t, Vec U) const {
   gather(U, local_.q);
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
   const auto& is_multiplier = coordinates_.multiplier();
-  int code = -1;  // of owner, whose number all ranks know, and constraint status
+  int code = -1;  // of owner, whose number all ranks know, whether it is the joint's body, and constraint status
   for (std::size_t term = 0; term < terms_.size() && code < 0; ++term) {
-    if (!constrains_[term]) continue;
+    if (!constrains_[term] && !terms_[term]->has_left_out_rows()) continue;
     const TermWork& w = pick(*terms_[term]);
     const ConstraintStatus constraint_status = terms_[term]->constraint_status({t, w.q, w.v, w.a});
     if (constraint_status == ConstraintStatus::satisfied) continue;
     const auto& indices = terms_[term]->coordinates();
-    const int first = *std::find_if(indices.begin(), indices.end(), [&](int index) { return is_multiplier[index]; });
-    code = 3 * coordinates_.owner_of_local()[first] + static_cast<int>(constraint_status);
+    const auto own = std::find_if(indices.begin(), indices.end(), [&](int index) { return is_multiplier[index]; });
+    const bool of_body = own == indices.end();  // it has no multiplier left
+    const int owner = coordinates_.owner_of_local()[of_body ? indices.front() : *own];
+    code = 6 * owner + 3 * of_body + static_cast<int>(constraint_status);
   }
   if (!whole_) MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, comm());
   if (code < 0) return {};
-  return {coordinates_.owners()[code / 3], static_cast<ConstraintStatus>(code % 3)};
+  const std::string& owner = coordinates_.owners()[code / 6];
+  return {code % 6 >= 3 ? "a joint of " + owner : owner, static_cast<ConstraintStatus>(code % 3)};
 }
 
 std::string System::FailedConstraint::text() const {

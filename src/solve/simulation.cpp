@@ -240,6 +240,11 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
     throw;
   } catch (const petsc::Error& error) {
     const std::string text = error.what();
+    if (error.code() == PETSC_ERR_MAT_LU_ZRPVT && report.steps > 0)
+      stop(fmt::format(
+          "the equations of a step are singular: the mechanism is in a position in which the constraints of "
+          "its joints depend on one another (cranks in line with their rod), or they are redundant ({})",
+          text.substr(0, text.find('\n'))));
     if (!is_singular(error.code()) || report.steps > 0) stop(text);
     stop(fmt::format("{} (options -{}ksp_...: {})", singular_start, how.prefix, text.substr(0, text.find('\n'))));
   } catch (const std::exception& error) {

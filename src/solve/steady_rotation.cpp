@@ -49,11 +49,7 @@ VectorXd factored(Sparse& J, VectorXd b) {
   check(KSPCreate(PETSC_COMM_SELF, ksp.out()));
   check(KSPSetOperators(ksp, A, A));
   set_tangent_solver(ksp, A);
-  try {
-    check(KSPSolve(ksp, in, out));
-  } catch (const petsc::Error&) {  // other ranks wait for an answer
-    x.setConstant(NAN);
-  }
+  check(KSPSolve(ksp, in, out));
   return x;
 }
 
@@ -64,14 +60,16 @@ VectorXd solve(Sparse J, const VectorXd& b, MPI_Comm comm) {
   VectorXd x = VectorXd::Zero(b.size());
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  if (rank == 0) {
-    VectorXd R, S;
-    equilibrate(J, R, S);
-    const VectorXd scaled = R.cwiseProduct(b);
-    x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(MatrixXd(J)).solve(scaled))
-                          : factored(J, scaled);
-    x.array() *= S.array();
-  }
+  if (rank == 0) try {
+      VectorXd R, S;
+      equilibrate(J, R, S);
+      const VectorXd scaled = R.cwiseProduct(b);
+      x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(MatrixXd(J)).solve(scaled))
+                            : factored(J, scaled);
+      x.array() *= S.array();
+    } catch (const std::exception&) {  // other ranks wait for an answer
+      x.setConstant(NAN);
+    }
   MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, comm);
   return x;
 }

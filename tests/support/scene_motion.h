@@ -84,6 +84,16 @@ inline History move(const std::string& text, Formulation formulation) {
   return history;
 }
 
+/// What is wrong with a scene whose motion by modes and derivatives is refused; empty where it is not.
+inline std::string fault_of_motion(const std::string& text) {
+  try {
+    move(text, Formulation::vm_md);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// The equilibrium at t = 1, reached from t = 0 in equal steps of load.
 inline History rest(const std::string& text, Formulation formulation, int steps = 1) {
   History history = history_of(text, formulation);

@@ -49,6 +49,12 @@ class Joint final : public Connection {
   Wrench on_second(const Motion& motion) const override;
   /// The force of a revolute or a clamp, with the second place's frame (or the first's, where that has none).
   void add_corotated(std::vector<Corotated>& corotated) const override;
+  /// Of rows that were left out: violated beyond a thousandth of `extent` and of a radian.
+  ConstraintStatus constraint_status(const Motion& motion) const override;
+  bool has_left_out_rows() const override {
+    return !captures_ && static_cast<int>(independent_.size()) < rows(constraint_);
+  }
+  double extent = 1;  ///< of the scene [m]
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override;
   void load(std::span<const double> carried) override;

@@ -67,6 +67,8 @@ class Term {
   virtual Energy energy(const Motion&) const { return {}; }
   /// Whether constraints are met as they are meant to be. Of the motion t and q count.
   virtual ConstraintStatus constraint_status(const Motion&) const { return ConstraintStatus::satisfied; }
+  /// Whether rows of its constraint were left out because others imply them: it may be violated without multipliers.
+  virtual bool has_left_out_rows() const { return false; }
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}

@@ -135,3 +135,29 @@ TEST_CASE("what each joint holds, in plain numbers") {
          Eigen::Vector2d(n.dot(Eigen::Vector2d(-2, -1.5)) - 0.25, right - 0.15))
             .norm() < 1e-14);
 }
+
+// A rigid body at (x, y, a) on the ground: rows that were left out are watched within a thousandth of the extent, 20 m,
+// and of a radian.
+TEST_CASE("a joint whose rows were left out is violated where these are not met") {
+  using dynamics::ConstraintStatus;
+  dynamics::Marker place;
+  place.framed = true;
+  place.coordinates = {0, 1, 2};
+  place.S.resize(2, 0);
+  place.psi.resize(0);
+  const auto status = [&](const dynamics::Constraint& constraint, std::vector<int> rows, const Eigen::Vector3d& pose) {
+    Joint joint(dynamics::Marker::ground({0, 0}), place, constraint, 3, rows);
+    joint.extent = 20;
+    VectorXd q = VectorXd::Zero(size(joint));
+    q.head<3>() = pose;
+    const VectorXd none = VectorXd::Zero(q.size());
+    return joint.constraint_status({0, q, none, none});
+  };
+  CHECK(status(dynamics::Revolute{}, {0}, {5, 0.019, 1}) == ConstraintStatus::satisfied);  // row 0 is an equation
+  CHECK(status(dynamics::Revolute{}, {0}, {0, 0.021, 1}) == ConstraintStatus::violated);
+  CHECK(status(dynamics::Revolute{}, {0, 1}, {5, 5, 1}) == ConstraintStatus::satisfied);
+  CHECK(status(dynamics::Clamp{}, {0, 1}, {0, 0, 9e-4}) == ConstraintStatus::satisfied);
+  CHECK(status(dynamics::Clamp{}, {0, 1}, {0, 0, 1.1e-3}) == ConstraintStatus::violated);
+  CHECK(status(dynamics::Prismatic{}, {}, {7, 0.019, 0}) == ConstraintStatus::satisfied);
+  CHECK(status(dynamics::Prismatic{}, {}, {7, 0, 1.1e-3}) == ConstraintStatus::violated);
+}
