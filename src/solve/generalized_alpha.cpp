@@ -33,7 +33,7 @@ constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,
                                   &Data::tangent_A, &Data::work_U,
                                   &Data::work_V,    &Data::work_A,
                                   &Data::work_F,    &Data::column,
-                                  &Data::A_before};
+                                  &Data::A_before,  &Data::rotation_rows};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -134,6 +134,8 @@ PetscErrorCode set_rotations(TS ts, const TSGeneralizedAlphaRotations* rotations
   PetscFunctionBegin;
   PetscCheck(!rotations->rebase == !rotations->bracket, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_WRONG,
              "Rotations need rebase and bracket, or neither");
+  if (rotations->angles) PetscCall(PetscObjectReference((PetscObject)rotations->angles));
+  PetscCall(ISDestroy(&generalized_alpha_data(ts)->rotations.angles));
   generalized_alpha_data(ts)->rotations = *rotations;
   PetscFunctionReturn(0);
 }
@@ -191,6 +193,7 @@ PetscErrorCode destroy(TS ts) {
   PetscFunctionBegin;
   PetscCall(reset(ts));
   PetscCall(ISDestroy(&generalized_alpha_data(ts)->multipliers));
+  PetscCall(ISDestroy(&generalized_alpha_data(ts)->rotations.angles));
   if (ts->snes) PetscCall(SNESSetConvergenceTest(ts->snes, SNESConvergedDefault, nullptr, nullptr));
   delete generalized_alpha_data(ts);
   ts->data = nullptr;

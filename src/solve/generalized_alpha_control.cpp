@@ -4,19 +4,20 @@ namespace floe::solve {
 namespace {
 
 struct Norms {
-  PetscReal update, whole_update, increment, size;
+  PetscReal update, whole_update, increment, size, rotated;
 };
 
 // Weighted norms of Newton's last update, of the lesser of q_1 - q_0 and q_1 - q_0 - h v_0 (a steady motion is no
 // measure of what a step solves for, nor is the speed of a stiff one), and of q_1, where an attitude counts as 1 rad
-// (its entries count from a base that moves with it). Multipliers count in whole_update alone, by what their force
-// moves: sum_j C_j^2 / |J_jj|, which is 1 / scale^2 of their row. Collective.
+// (its entries count from a base that moves with it); `rotated`: with 1 rad for angles in the plane, too. Multipliers
+// count in whole_update alone, by what their force moves: sum_j C_j^2 / |J_jj|, which is 1 / scale^2 of their row.
+// Collective.
 PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   Vec U_vec, update_vec;
   SNESLineSearch line_search;
   PetscReal lambda;
   PetscMPIInt ranks;
-  double sums[5] = {0, 0, 0, 0, 0};
+  double sums[6] = {0, 0, 0, 0, 0, 0};
 
   PetscFunctionBegin;
   PetscCall(SNESGetSolution(snes, &U_vec));
@@ -24,19 +25,21 @@ PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   PetscCall(SNESGetLineSearch(snes, &line_search));
   PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
   const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight),
-      attitude_rows(data->attitude_rows), dynamic(data->dynamic), scale(data->scale);
+      attitude_rows(data->attitude_rows), rotation_rows(data->rotation_rows), dynamic(data->dynamic),
+      scale(data->scale);
   for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
     sums[0] += weight[i] * PetscSqr(update[i]);
     sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
     sums[2] += weight[i] * PetscSqr(U[i] - U0[i] - data->h * V0[i]);
     sums[3] += weight[i] * (PetscSqr(U[i]) + attitude_rows[i]);
+    sums[5] += weight[i] * (PetscSqr(U[i]) + rotation_rows[i]);
     if (dynamic[i] == 0) sums[4] += PetscSqr(update[i] / scale[i]);
   }
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));
   if (ranks > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
   *norms = {lambda * PetscSqrtReal(sums[0]), lambda * PetscSqrtReal(sums[0] + sums[4]),
-            PetscSqrtReal(PetscMin(sums[1], sums[2])), PetscSqrtReal(sums[3])};
+            PetscSqrtReal(PetscMin(sums[1], sums[2])), PetscSqrtReal(sums[3]), PetscSqrtReal(sums[5])};
   PetscFunctionReturn(0);
 }
 
@@ -93,8 +96,9 @@ bool has_left(const GeneralizedAlpha* data, const Norms& norms, PetscInt lag, Pe
 // Solving Ordinary Differential Equations II, IV.8). Slack is 4 eps |q_1|, and less with a Jacobian kept from before,
 // whose errors have the same sign step after step. What is left after a first update is measured in all unknowns: q may
 // be predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small and do not
-// fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led away from
-// the solution, and solve() begins again without it.
+// fall any more (places at arms feel motions from eps on, those at the origin of a frame that does not move less). A
+// Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led away from the solution, and
+// solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
@@ -116,7 +120,8 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
   PetscCall(SNESGetLagJacobian(snes, &lag));
   if (data->new_jacobian) data->formed = PETSC_TRUE;
   const auto [rate, left] = iteration == 1 ? first_progress(data, norms) : later_progress(data, norms);
-  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size, slack = (data->new_jacobian ? 4 : 0.01) * floor;
+  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size, small = 1e3 * PETSC_MACHINE_EPSILON * norms.rotated;
+  const PetscReal slack = (data->new_jacobian ? 4 : 0.01) * floor;
   if (PetscIsInfOrNanReal(norms.update) || PetscIsInfOrNanReal(residual)) {
     *reason = SNES_DIVERGED_FNORM_NAN;
   } else if ((iteration == 1 ? norms.whole_update : norms.update) <= 4 * floor ||
@@ -127,9 +132,9 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
   } else if (iteration > 1 && rate > 0.25 && !data->new_jacobian) {
     renew_jacobian(snes, iteration);
     data->idle = data->growing = 0;
-  } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, 1e3 * floor)) {
+  } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, small)) {
     *reason = SNES_CONVERGED_SNORM_RELATIVE;
-  } else if (norms.update > 1e3 * floor && (data->growing >= 2 || has_left(data, norms, lag, residual))) {
+  } else if (norms.update > small && (data->growing >= 2 || has_left(data, norms, lag, residual))) {
     *reason = SNES_DIVERGED_DTOL;
   }
   data->update = norms.update;

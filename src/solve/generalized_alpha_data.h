@@ -47,7 +47,7 @@ struct GeneralizedAlpha {
 
   // Of each row: 1 for dynamic and 0 for constraint; |dF/dU|_ii, |dF/dA|_ii; 1 / norm of a constraint row.
   Vec dynamic = nullptr, stiffness = nullptr, mass = nullptr, row = nullptr;
-  Vec attitude_rows = nullptr;            // of each row: 1 for an attitude, else 0
+  Vec attitude_rows = nullptr, rotation_rows = nullptr;  // of each row: 1 for an attitude, for that or an angle; else 0
   Vec scale = nullptr, weight = nullptr;  // row scaling and |J_ii| (0 for multipliers), for the step size h_scale
   PetscReal h_scale = 0;
   Vec column = nullptr;  // column scaling of the Jacobian that was formed last: 1 where `two_sided` is not set

@@ -22,6 +22,28 @@ PetscErrorCode rebase(TS ts) {
   PetscFunctionReturn(0);
 }
 
+namespace {
+
+PetscErrorCode mark_angles(GeneralizedAlpha* data) {
+  const PetscInt* indices;
+  PetscInt count, first;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data->attitude_rows, data->rotation_rows));
+  if (!data->rotations.angles) PetscFunctionReturn(0);
+  PetscCall(VecGetOwnershipRange(data->rotation_rows, &first, nullptr));
+  PetscCall(ISGetLocalSize(data->rotations.angles, &count));
+  PetscCall(ISGetIndices(data->rotations.angles, &indices));
+  {
+    Changed rows(data->rotation_rows);
+    for (PetscInt i = 0; i < count; ++i) rows[indices[i] - first] = 1;
+  }
+  PetscCall(ISRestoreIndices(data->rotations.angles, &indices));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
 // A row is one of an attitude where the bracket of two vectors, no three entries of which are parallel, is not zero.
 PetscErrorCode mark_attitudes(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
@@ -29,6 +51,7 @@ PetscErrorCode mark_attitudes(TS ts) {
 
   PetscFunctionBegin;
   PetscCall(VecSet(data->attitude_rows, 0));
+  PetscCall(mark_angles(data));
   if (!data->rotations.bracket) PetscFunctionReturn(0);
   PetscCall(VecGetOwnershipRange(data->attitude_rows, &first, nullptr));
   {
@@ -44,6 +67,7 @@ PetscErrorCode mark_attitudes(TS ts) {
     for (PetscInt i = 0, n = local_size(data->attitude_rows); i < n; ++i)
       attitude_rows[i] = attitude_rows[i] != 0 ? 1 : 0;
   }
+  PetscCall(mark_angles(data));
   PetscCall(VecSet(data->work_U, 0));
   PetscCall(VecSet(data->work_V, 0));
   PetscFunctionReturn(0);

@@ -40,6 +40,19 @@ PetscErrorCode start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
   });
 }
 
+/// Of frames in the plane, those that this rank owns. Collective.
+petsc::IsHandle frame_angles(const System& system, Vec U) {
+  PetscInt first = 0, last = 0;
+  check(VecGetOwnershipRange(U, &first, &last));
+  std::vector<PetscInt> mine;
+  for (const auto& [local, of_frame] : system.coordinates().angles())
+    if (const PetscInt index = system.coordinates().global()[local]; of_frame && index >= first && index < last)
+      mine.push_back(index);
+  petsc::IsHandle set;
+  check(ISCreateGeneral(system.comm(), static_cast<PetscInt>(mine.size()), mine.data(), PETSC_COPY_VALUES, set.out()));
+  return set;
+}
+
 PetscErrorCode rebase_rotations(TS, Vec U, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
   return c.guard.run([&] { c.system.rebase(U); });
@@ -201,8 +214,9 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
   check(TSGeneralizedAlphaSetMultipliers(ts, multipliers));
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
   const bool attitudes = system.has_attitudes();
+  const petsc::IsHandle angles = frame_angles(system, U);
   const TSGeneralizedAlphaRotations rotations{attitudes ? rebase_rotations : nullptr, attitudes ? bracket : nullptr,
-                                              &context, rotate_rates};
+                                              &context, rotate_rates, angles};
   check(TSGeneralizedAlphaSetRotations(ts, &rotations));
   check(TSSetApplicationContext(ts, &context));
   check(TSSetFunctionDomainError(ts, check_constraints));

@@ -51,6 +51,7 @@ struct TSGeneralizedAlphaRotations {
   PetscErrorCode (*bracket)(TS ts, Vec a, Vec b, Vec W, void* context) = nullptr;
   void* context = nullptr;
   PetscErrorCode (*rotate)(TS ts, Vec U, PetscBool back, Vec y, void* context) = nullptr;
+  IS angles = nullptr;  ///< rotations in the plane [rad], global indices that this rank owns; referenced
 };
 PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations);
 
