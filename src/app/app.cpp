@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "drawing.h"
+#include "floe/petsc/blas_kernel.h"
 #include "floe/petsc/rank.h"
 #include "floe/version.h"
 #include "session.h"
@@ -44,6 +45,7 @@ void parse(CLI::App& app, const CommandLine& line, std::function<void()>& work) 
 }  // namespace
 
 int main(int argc, char** argv) {
+  petsc::use_better_blas_kernel(argv);
   const CommandLine line = split(argc, argv);
   CLI::App app("floe " FLOE_VERSION
                ": nonlinear model reduction for flexible multibody dynamics in the floating frame of reference",

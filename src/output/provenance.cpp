@@ -13,6 +13,7 @@
 #include <iterator>
 #include <thread>
 
+#include "floe/petsc/blas_kernel.h"
 #include "floe/petsc/error.h"
 #include "floe/version.h"
 
@@ -104,7 +105,7 @@ nlohmann::ordered_json provenance(MPI_Comm comm) {
           {"slepc", slepc_version()},
           {"mpi", mpi_version()},
           {"hdf5", hdf5_version()},
-          {"blas", {{"name", blas_name(blas)}, {"file", blas}}}};
+          {"blas", {{"name", blas_name(blas)}, {"file", blas}, {"kernel", petsc::blas_kernel()}}}};
 }
 
 }  // namespace floe::output

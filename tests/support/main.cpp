@@ -3,11 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "floe/petsc/blas_kernel.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
 #include "floe/solve/generalized_alpha.h"
 
 int main(int argc, char** argv) {
+  floe::petsc::use_better_blas_kernel(argv);
   int none = 1;
   char* name[] = {argv[0], nullptr};
   char** arguments = name;

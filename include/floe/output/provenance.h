@@ -10,7 +10,7 @@ namespace floe::output {
 /// PETSc options.
 ///
 /// Keys: floe {version, commit}, date (UTC, ISO 8601), command, petsc_options, ranks, cores, petsc, slepc, mpi, hdf5,
-/// blas {name, file}. After PetscInitialize. Rank-local.
+/// blas {name, file, kernel}. After PetscInitialize. Rank-local.
 nlohmann::ordered_json provenance(MPI_Comm comm);
 
 /// "openblas", "reference", "mkl", "blis", "atlas" or "unknown", from the file that dgemm_ was loaded from.

@@ -27,6 +27,7 @@ TEST_CASE("provenance names what made a result") {
   CHECK(all["ranks"] == ranks);
   CHECK(all["cores"].get<int>() >= 1);
   CHECK(all["blas"]["name"] != "unknown");
+  CHECK(all["blas"]["kernel"].get<std::string>().empty() == (all["blas"]["name"] != "openblas"));
   int year = 0, second = -1;
   char zone = 0;
   CHECK(std::sscanf(all["date"].get<std::string>().c_str(), "%4d-%*2d-%*2dT%*2d:%*2d:%2d%c", &year, &second, &zone) ==
