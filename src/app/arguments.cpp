@@ -236,14 +236,16 @@ void add_sweep(CLI::App& app, Arguments& given, Work& work) {
                     "vary all together, the i-th value of each, instead of every combination");
   command->add_flag("--estimate", given.estimate,
                     "estimate the total error of each member, as run does; each takes the time of several");
+  command->add_option("--ranks-per-member", given.ranks_per_member,
+                      "ranks that reduce and simulate a member together (default 1), for large meshes");
   add_folder(command, given);
   command->callback([&given, &work] {
     work = [&given] {
-      const scene::Formulation formulation = scene::formulation_of(given.formulation);
-      std::vector<Varied> varied;
-      for (const std::string& text : given.varied) varied.push_back(parse_varied(text));
-      sweep(given.scene, formulation, varied, given.together, given.estimate, PETSC_COMM_WORLD,
-            new_folder(given, "sweep"));
+      SweepRequest request{
+          given.scene,           scene::formulation_of(given.formulation), {}, given.together, given.estimate,
+          given.ranks_per_member};
+      for (const std::string& text : given.varied) request.varied.push_back(parse_varied(text));
+      sweep(request, PETSC_COMM_WORLD, new_folder(given, "sweep"));
     };
   });
 }

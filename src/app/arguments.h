@@ -19,7 +19,7 @@ struct Arguments {
   std::vector<std::string> formulations, varied;
   std::optional<std::string> out, matrices, restart, checkpoint, accuracy, explicit_scene;
   std::optional<double> at, until;
-  int steps = 10, frequencies = 0, points = 1000;
+  int steps = 10, frequencies = 0, points = 1000, ranks_per_member = 1;
   CampbellRequest campbell;
   TradeoffRequest tradeoff;
   bool formulation_given = false, together = false, estimate = false, force = false, no_reference_error = false,

@@ -11,6 +11,7 @@
 #include "drawing.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
 #include "interruption.h"
 #include "run.h"
 #include "sweep_file.h"
@@ -59,14 +60,35 @@ void read_errors(const RunResult& result, Member& member) {
           fmt::format("no estimate of the {} error: {}", part, estimate[part]["none"].get<std::string>()));
 }
 
+/// The ranks that simulate a member together.
+class Group {
+ public:
+  Group(MPI_Comm all, int size) {
+    int rank = 0, ranks = 1;
+    MPI_Comm_rank(all, &rank);
+    MPI_Comm_size(all, &ranks);
+    number = rank / size, count = (ranks + size - 1) / size;
+    MPI_Comm_split(all, number, rank, &comm);
+    leads = petsc::first_rank(comm);
+  }
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+  ~Group() { MPI_Comm_free(&comm); }
+  MPI_Comm comm = MPI_COMM_NULL;
+  int number = 0, count = 1;
+  bool leads = true;  ///< this rank has the member's results
+};
+
 /// Keeps the last bodies that were reduced: members that differ in what acts on them share these.
 class Offline {
  public:
+  explicit Offline(MPI_Comm comm) : comm_(comm) {}
+  /// Collective.
   const assembly::ReducedBodies& bodies(const Plan& plan, std::size_t member, const scene::Scene& scene) {
     std::string inputs = scene::offline_inputs(plan.text, plan.file, plan.members[member]);
     if (!bodies_ || inputs != inputs_) {
       bodies_.reset();
-      bodies_ = assembly::reduce_once(scene, plan.formulation, PETSC_COMM_SELF);
+      bodies_ = assembly::reduce_once(scene, plan.formulation, comm_);
       inputs_ = std::move(inputs);
       ++reductions;
     }
@@ -75,6 +97,7 @@ class Offline {
   std::int64_t reductions = 0;
 
  private:
+  MPI_Comm comm_;
   std::string inputs_;
   std::shared_ptr<const assembly::ReducedBodies> bodies_;
 };
@@ -97,7 +120,8 @@ void measure(Member& member, std::size_t columns) {
   }
 }
 
-Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
+/// Of ranks that do not lead the fault alone. Collective on the group.
+Member simulate_member(const Plan& plan, std::size_t number, Offline& offline, const Group& group) {
   Member member;
   try {
     const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[number]);
@@ -105,11 +129,11 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
     quiet.quiet = true, quiet.estimate = plan.estimate;
     const auto shared = [&] {
       assembly::Model model = assembly::build_on(offline.bodies(plan, number, scene), scene);
-      return move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
+      return move(scene, model, 0, group.comm, std::nullopt, quiet);
     };
     if (plan.estimate) ++offline.reductions;  // with the factors that estimates need
-    const RunResult result =
-        plan.estimate ? run(scene, plan.formulation, PETSC_COMM_SELF, std::nullopt, quiet) : shared();
+    const RunResult result = plan.estimate ? run(scene, plan.formulation, group.comm, std::nullopt, quiet) : shared();
+    if (!group.leads) return member;
     member.steps = result.steps;
     member.end = result.end;
     for (std::size_t i = 0; i < result.series.t.size(); ++i) {
@@ -237,12 +261,16 @@ class Collection {
   std::vector<MPI_Request> requests_;
 };
 
-Plan plan_of(const std::string& file, scene::Formulation formulation, const std::vector<Varied>& varied, bool together,
-             bool estimate) {
-  if (!scene::is_reduced(formulation))
+Plan plan_of(const SweepRequest& request, int ranks) {
+  if (!scene::is_reduced(request.formulation))
     throw InputError(fmt::format("--formulation {}: a sweep simulates reduced models; expected vm+md or vm",
-                                 scene::name_of(formulation)));
-  Plan plan{file, scene::read_scene(file).text, formulation, members_of(varied, together), estimate};
+                                 scene::name_of(request.formulation)));
+  if (request.ranks_per_member < 1 || request.ranks_per_member > ranks)
+    throw InputError(fmt::format("--ranks-per-member: is {}; expected 1 to {}, the number of ranks of this sweep",
+                                 request.ranks_per_member, ranks));
+  const std::string& file = request.scene;
+  Plan plan{file, scene::read_scene(file).text, request.formulation, members_of(request.varied, request.together),
+            request.estimate};
   const scene::Scene first = scene::parse_scene(plan.text, file, plan.members.front());  // are the paths there
   if (first.motion.end <= 0)
     throw InputError(file + ": motion: is missing; expected end time and time step, as `motion: {end: 3, step: 1e-3}`");
@@ -267,12 +295,13 @@ std::vector<assembly::ProbeColumn> columns_of(const Plan& plan, Offline& offline
   return {};
 }
 
-ordered_json summary_of(const Plan& plan, const std::vector<Varied>& varied, MPI_Comm comm) {
+ordered_json summary_of(const Plan& plan, const SweepRequest& request, MPI_Comm comm) {
   ordered_json j{{"status", "running"},
                  {"scene", {{"file", plan.file}}},
                  {"formulation", scene::name_of(plan.formulation)},
                  {"provenance", output::provenance(comm)}};
-  for (const Varied& each : varied) j["varied"].push_back({{"path", each.path}, {"values", each.values}});
+  j["ranks_per_member"] = request.ranks_per_member;
+  for (const Varied& each : request.varied) j["varied"].push_back({{"path", each.path}, {"values", each.values}});
   j["members"] = plan.members.size();
   j["failures"] = ordered_json::array();
   j["warnings"] = ordered_json::array();
@@ -283,33 +312,35 @@ ordered_json summary_of(const Plan& plan, const std::vector<Varied>& varied, MPI
 
 namespace {
 
-void sweep_into(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-                bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder) {
+void sweep_into(const SweepRequest& request, MPI_Comm comm, const output::ResultFolder& folder) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Plan plan;
-  petsc::agree(comm, [&] { plan = plan_of(scene_file, formulation, varied, together, estimate); });
-  Offline offline;
+  petsc::agree(comm, [&] { plan = plan_of(request, ranks); });
+  const Group group(comm, request.ranks_per_member);
+  Offline offline(group.comm);
   std::unique_ptr<SweepFile> file;
   output::remove_replaced(comm, folder);
   petsc::agree(comm, [&] {
+    if (group.number != 0) return;
+    const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline);
     if (rank != 0) return;
     std::vector<std::string> paths;
-    for (const Varied& each : varied) paths.push_back(each.path);
-    const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline);
-    file = std::make_unique<SweepFile>(folder, plan.text, summary_of(plan, varied, comm), paths, columns,
-                                       estimate ? probes_of(columns) : std::vector<std::string>());
+    for (const Varied& each : request.varied) paths.push_back(each.path);
+    file = std::make_unique<SweepFile>(folder, plan.text, summary_of(plan, request, comm), paths, columns,
+                                       plan.estimate ? probes_of(columns) : std::vector<std::string>());
   });
   Collection collection(plan, comm, file.get());
   const Interruption interruption;
   const double begin = MPI_Wtime();
   double saved = begin;
   bool stopped = false;
-  for (std::size_t m = rank; m < plan.members.size(); m += ranks) {
-    Member member =
-        stopped ? Member{.fault = "not simulated: the sweep was interrupted"} : move_member(plan, m, offline);
-    stopped = stopped || Interruption::happened(PETSC_COMM_SELF);
+  for (std::size_t m = group.number; m < plan.members.size(); m += group.count) {
+    Member member = stopped ? Member{.fault = "not simulated: the sweep was interrupted"}
+                            : simulate_member(plan, m, offline, group);
+    stopped = stopped || Interruption::happened(group.comm);
+    if (!group.leads) continue;
     if (rank != 0) {
       collection.send(m, member);
       continue;
@@ -330,7 +361,8 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
   });
   std::int64_t numbers[2] = {file ? file->failed() : 0, 0};
   MPI_Bcast(numbers, 1, MPI_INT64_T, 0, comm);
-  MPI_Allreduce(&offline.reductions, &numbers[1], 1, MPI_INT64_T, MPI_SUM, comm);
+  const std::int64_t reductions = group.leads ? offline.reductions : 0;
+  MPI_Allreduce(&reductions, &numbers[1], 1, MPI_INT64_T, MPI_SUM, comm);
   const double seconds = MPI_Wtime() - begin;
   if (rank == 0) {
     fmt::print("{} members ({} failed) in {:.3g} s; {} reductions of bodies\n", plan.members.size(), numbers[0],
@@ -344,10 +376,9 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
 
 }  // namespace
 
-void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-           bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder) {
+void sweep(const SweepRequest& request, MPI_Comm comm, const output::ResultFolder& folder) {
   try {
-    sweep_into(scene_file, formulation, varied, together, estimate, comm, folder);
+    sweep_into(request, comm, folder);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;

@@ -44,17 +44,27 @@ std::string without_numbers(const std::string& text);
 /// In the terminal's words: text, the first member and what was varied in it, how many more.
 std::string words_of(const SweepWarning& warning);
 
-/// `floe sweep`: moves a reduced scene with some of its numbers varied.
+/// What `floe sweep` is asked for.
+struct SweepRequest {
+  std::string scene;  ///< its file
+  scene::Formulation formulation;
+  std::vector<Varied> varied;
+  bool together = false;     ///< members_of
+  bool estimate = false;     ///< the total error of each member, its bodies reduced anew, in the time budget of a run
+  int ranks_per_member = 1;  ///< at least 1
+};
+
+/// `floe sweep`: simulates a reduced scene with some of its numbers varied.
 ///
-/// Each rank prepares and moves members of its own: member i on rank i mod N, so that neighbours, which cost alike, go
-/// to different ranks, and nothing depends on who is faster. Bodies are reduced anew only where what they are made of
+/// Groups of ranks_per_member consecutive ranks (the last one of what remains) prepare and simulate members of their
+/// own: member i in group i mod the number of groups, so that neighbours, which cost alike, go to different groups, and
+/// nothing depends on who is faster. Bodies are reduced anew only where what they are made of
 /// changes (scene::offline_inputs). A member that fails is told of and spares the others; what members warn of is told
 /// at the end, once for all that have it. Rank 0 writes members in their order into sweep.h5 and sweep.csv, as they
 /// come in: a sweep that is killed leaves whole files.
-/// @param estimate  the total error of each member, with the reduction of its bodies anew and the time budget of a run
-/// @throws InputError  before anything is moved: a path that the scene does not have, a folder in use
+/// @throws InputError  before anything is simulated: more ranks for a member than there are, a path that the scene does
+/// not have, a folder in use
 /// @throws RunError    members failed, how many and the first reason; it was interrupted. Collective.
-void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-           bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder);
+void sweep(const SweepRequest& request, MPI_Comm comm, const output::ResultFolder& folder);
 
 }  // namespace floe::app

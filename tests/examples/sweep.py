@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""floe sweep on one rank and on two: the same members to the last bit, what single runs give, and a member that fails."""
+"""floe sweep on one rank and on two: the same members to the last bit, what single runs give, and a member that fails; on three ranks
+with two for a member: the same to solver tolerance."""
 import csv
 import json
 import pathlib
@@ -74,6 +75,15 @@ def main():
             assert numpy.array_equal(probes, b["probes"][:])
             columns = json.loads(a["columns"][()])
             assert len(columns["members"]) == members.shape[1] and len(columns["probes"]) == probes.shape[1]
+        done = run(floe, 3, folder, *words, "--ranks-per-member", "2", "-o", "groups")
+        assert done.returncode == 1 and done.stderr.count("failed: ") == 3 and "3 of 6 members failed" in done.stderr, done.stderr
+        assert "; 1 reductions of bodies" in done.stdout, done.stdout  # the other group has the members that fail
+        with h5py.File(folder / "groups/sweep.h5") as a:
+            assert numpy.allclose(a["probes"][:], probes, rtol=1e-8, atol=1e-12)
+            assert numpy.array_equal(a["members"][:, 0], members[:, 0])
+        done = run(floe, 2, folder, *words, "--ranks-per-member", "3", "-o", "none")
+        assert done.returncode == 2 and "--ranks-per-member: is 3; expected 1 to 2" in done.stderr, done.stderr
+        assert not (folder / "none").exists()
         failed = columns["members"].index("failed")
         assert list(members[:, failed]) == [0, 1, 0, 1, 0, 1]
         summary = json.loads((folder / "out1/summary.json").read_text())

@@ -88,7 +88,9 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
 )yaml");
   const auto folder = own.results("out");
   const std::string said = printed([&] {
-    app::sweep(file, scene::Formulation::vm_md, {{"F", {3, -6}}, {"bodies.rod.section.rhoA", {3, 6}}}, false, false,
+    app::sweep({.scene = file,
+                .formulation = scene::Formulation::vm_md,
+                .varied = {{"F", {3, -6}}, {"bodies.rod.section.rhoA", {3, 6}}}},
                PETSC_COMM_WORLD, folder);
   });
   const auto columns = columns_of(folder.sweep_table());
@@ -107,7 +109,10 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
   CHECK_THAT(said, Contains("4 members (0 failed)"));
   CHECK(nlohmann::json::parse(contents(folder.summary()))["status"] == "finished");
   const auto rigid = own.results("rigid");  // nothing to estimate, which is said once
-  printed([&] { app::sweep(file, scene::Formulation::vm_md, {{"F", {3, 6}}}, false, true, PETSC_COMM_WORLD, rigid); });
+  printed([&] {
+    app::sweep({.scene = file, .formulation = scene::Formulation::vm_md, .varied = {{"F", {3, 6}}}, .estimate = true},
+               PETSC_COMM_WORLD, rigid);
+  });
   const auto warnings = nlohmann::json::parse(contents(rigid.summary()))["warnings"];
   REQUIRE(warnings.size() == 3);
   for (int i = 0; i < 3; ++i) {
@@ -117,7 +122,7 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
     CHECK(warnings[i]["members"] == nlohmann::json{1, 2});
   }
   const auto refused = [&](const std::vector<app::Varied>& what, scene::Formulation formulation) {
-    app::sweep(file, formulation, what, false, false, PETSC_COMM_WORLD, own.results("no"));
+    app::sweep({.scene = file, .formulation = formulation, .varied = what}, PETSC_COMM_WORLD, own.results("no"));
   };
   CHECK_THROWS_WITH(
       refused({{"G", {1}}}, scene::Formulation::vm_md),
@@ -144,7 +149,10 @@ probes: {tip: {at: rod.end}, turn: {at: rod.end, quantity: rotation}}
 )yaml";
   const std::string file = own.write("scene.yaml", text);
   const auto folder = own.results("out");
-  printed([&] { app::sweep(file, scene::Formulation::vm_md, {{"F", {1, 8}}}, false, true, PETSC_COMM_WORLD, folder); });
+  printed([&] {
+    app::sweep({.scene = file, .formulation = scene::Formulation::vm_md, .varied = {{"F", {1, 8}}}, .estimate = true},
+               PETSC_COMM_WORLD, folder);
+  });
   const auto columns = columns_of(folder.sweep_table());
   app::RunPlan plan;
   plan.quiet = true, plan.estimate = true;
