@@ -7,7 +7,7 @@ namespace {
 const SchemaSection limits_section{
     "limits",
     "Elastic end stops: beyond a limit a spring force acts. Over the width it grows quadratically, beyond it linearly; "
-    "the damping likewise.",
+    "the damping constant grows over the width to its value, at a share s of it by s^2 (3 - 2 s).",
     "lower: -pi/4\nupper: pi/4\nstiffness: 1e4",
     {
         {"lower", Type::number, "rad; m", "", "relative to the initial configuration; absent: none"},
@@ -120,7 +120,7 @@ const SchemaSection joint_section{
         only({"bushing"}, {"translation_viscosity", Type::numbers, "N s/m", "[0, 0, 0]",
                            "viscous damping along x, y, z", nonnegative}),
         only({"bushing"}, {"rotation_viscosity", Type::numbers, "N m s/rad", "[0, 0, 0]",
-                           "viscous damping about x, y, z", nonnegative}),
+                           "viscous damping about x, y, z, of the rate of the rotation vector", nonnegative}),
     }};
 
 const SchemaSection load_section{
@@ -227,7 +227,8 @@ const SchemaSection probe_section{
             "spatial scenes a rotation vector of length at most pi); acceleration, angular_acceleration: in world "
             "axes, "
             "or in those of relative_to (accelerometers); force, moment (about the second place): of a "
-            "joint, in world axes; drive: of a joint along or about its axis, positive where it increases travel, "
+            "joint, in world axes; drive: of a joint along its axis, or about it where the joint rotates about it "
+            "(also of a cylindrical one), positive where it increases travel, "
             "length "
             "or angle; power: what a joint does on both its places; angle, rate, travel, speed, length, length_rate: "
             "of "
