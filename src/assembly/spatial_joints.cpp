@@ -187,10 +187,16 @@ void SpatialAssembly::refuse_loose_supports() const {
     if (joint.kind != Kind::support || constrained_nodes_.contains(static_cast<int>(j)) || stands(static_cast<int>(j)))
       continue;
     const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
+    const Body& body = plan_.bodies[place.body].spec;
+    if (body.frame.given)
+      throw InputError(
+          fmt::format("{}: body {} has a frame of its own, and supports hold bodies without one; expected "
+                      "no frame in the body, or joints instead of supports",
+                      body.frame.where.text(), body.name));
     throw InputError(
         fmt::format("{}: its body can still move as a whole; expected supports and other joints to the ground that "
                     "leave body {} no rigid motion, without events of these",
-                    joint.where.text(), plan_.bodies[place.body].spec.name));
+                    joint.where.text(), body.name));
   }
 }
 

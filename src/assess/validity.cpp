@@ -162,7 +162,8 @@ void judge_spin(const BodyReport& body, const Seen& seen, double omega, bool lin
 }
 
 void judge_stretching(const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
-  if (!is_stiff(body, false) || !(seen.bending > 0 && seen.membrane > 0.02 * seen.bending)) return;
+  const bool bends = seen.bending > 1e-8 * seen.membrane;  // a truss does not
+  if (!is_stiff(body, false) || !bends || !(seen.membrane > 0.02 * seen.bending)) return;
   out.push_back(
       {"membrane", body.name, seen.membrane / seen.bending, 0.02,
        fmt::format("body {}: membrane energy of quadratic strains is {} of bending energy (limit 2 %); without "

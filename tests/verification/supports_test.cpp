@@ -105,6 +105,9 @@ TEST_CASE("supports: refused where the body can still move, and where they canno
     return std::string();
   };
   CHECK_THAT(refused(plate(lateral)), Catch::Contains("its body can still move as a whole"));
+  std::string floating = plate(lateral + centre);
+  floating.insert(floating.find("    reduction:"), "    frame: mean-axis\n");
+  CHECK_THAT(refused(floating), Catch::Contains("has a frame of its own, and supports hold bodies without one"));
   CHECK_THAT(refused(plate(support("plate.left", "z, u"))),
              Catch::Contains("contains \"u\"; expected x, y, z, rx, ry, rz"));
   CHECK_THAT(refused(plate("  s: {type: support, between: [plate.left, plate.right], hold: [z]}\n")),
