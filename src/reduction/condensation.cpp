@@ -17,8 +17,7 @@ using petsc::check;
 
 namespace {
 
-/// Whether any shell of the body, or beam of second order, has strains of second order. Beams of two nodes have none of
-/// third order that lock: their axial strain is averaged, their shear is linear. Collective.
+/// Whether any shell or beam of the body has strains of second order. Collective.
 bool may_lock(const fem::Structure& structure) {
   int found = 0;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
@@ -26,7 +25,7 @@ bool may_lock(const fem::Structure& structure) {
     const auto* shell = std::get_if<fem::ShellSection>(&section);
     const auto* beam = std::get_if<fem::SpatialBeam>(&section);
     if (shell && shell->strains == fem::Strains::second_order) found = 1;
-    if (beam && mesh::is_quadratic(cell.kind) && beam->strain.strains == fem::Strains::second_order) found = 1;
+    if (beam && beam->strain.strains == fem::Strains::second_order) found = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, structure.mesh.comm);
   return found != 0;
@@ -104,9 +103,7 @@ body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, 
   const MatrixXd free = beyond(R.rightCols(R.cols() - k - pairs), R.leftCols(k));
   body::Elasticity result{MatrixXd::Zero(k, k), {}, e.pairs};  // bending is among the squares
   MatrixXd F = R.leftCols(k + pairs);
-  for (Index p = 0; p < pairs; ++p)
-    if (with_derivative(e.pairs[static_cast<std::size_t>(p)]))
-      F.col(k + p) -= free * (free.transpose() * F.col(k + p)).eval();
+  F.rightCols(pairs) -= free * (free.transpose() * F.rightCols(pairs)).eval();
   result.F = triangle(std::move(F));
   return result;
 }
