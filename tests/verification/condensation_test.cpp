@@ -31,7 +31,7 @@ double error_of(const scene::Scene& parsed) {
 // weighs as 12 EI/h^2, and full order has displacements for it. Without condensed strains the reduced error is 0.13,
 // 1.5 and 9.7 % with 16, 64 and 256 elements on each leg. Attachment modes and few derivatives: 29 % where the strains
 // of products with derivatives alone are condensed (3.9 % where none are).
-TEST_CASE("beams of second order: the reduced model of an L follows full order however fine the mesh") {
+TEST_CASE("beams of second order: an L reduced as its full-order model, however fine the mesh") {
   for (const auto& [elements, reduction, gravity, force] :
        {std::tuple(16, "{modes: 6}", 60, 0),
         {64, "{modes: 6}", 60, 0},
@@ -60,7 +60,7 @@ probes: {{t: {{at: b.end, quantity: displacement}}}}
 
 // A quarter of a cylinder, clamped at one end, pushed at the other. With products with derivatives alone condensed 45 %
 // (10 derivatives) and 9.7 % (all).
-TEST_CASE("second order: a curved strip of shells with attachment modes follows full order") {
+TEST_CASE("second order: a curved strip of shells with attachment modes as its full-order model") {
   constexpr int along = 16, across = 3;
   std::string nodes, elements, root, tip;
   for (int i = 0, count = 0; i <= along; ++i)
