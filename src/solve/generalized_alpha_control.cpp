@@ -96,9 +96,9 @@ bool has_left(const GeneralizedAlpha* data, const Norms& norms, PetscInt lag, Pe
 // Solving Ordinary Differential Equations II, IV.8). Slack is 4 eps |q_1|, and less with a Jacobian kept from before,
 // whose errors have the same sign step after step. What is left after a first update is measured in all unknowns: q may
 // be predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small and do not
-// fall any more (places at arms feel motions from eps on, those at the origin of a frame that does not move less). A
-// Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led away from the solution, and
-// solve() begins again without it.
+// fall any more; a point away from the origin of its frame has a position of finite precision also where the frame's
+// coordinates are near zero, hence 1 rad. A Jacobian kept from before is replaced when the rate is bad; when updates
+// grow, it has led away from the solution, and solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));

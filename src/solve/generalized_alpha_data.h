@@ -131,6 +131,20 @@ PetscErrorCode note_event(TS ts);
 /// resolves A - a. Collective.
 PetscErrorCode smooth_rates(TS ts);
 
+// generalized_alpha_resolution.cpp
+/// The Jacobian that was just formed, scaled and made the solver's.
+PetscErrorCode take_jacobian(TS ts);
+/// J(shift_v, shift_a) of the state that the step begins with, made the solver's; A: null for zero accelerations.
+PetscErrorCode jacobian_of_beginning(TS ts, PetscReal shift_v, Vec A);
+/// A_0 without what a step that is longer than the time since an event does not resolve; J of A_0 is in the solver.
+/// What is removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
+PetscErrorCode resolve_accelerations(TS ts);
+/// A' of a start without what the step does not resolve; J is in the solver.
+PetscErrorCode resolve_jerk(TS ts);
+/// How much of A - a, which is h shift A' of smooth motions, the step resolves, in the norm of M: 1 where it is all, 0
+/// where a fifth is lost. Where stiff or strongly damped motions are in it, A' is theirs, and what the constraints see
+/// of that is noise.
+PetscErrorCode resolved_share(TS ts, PetscReal* share);
 /// Removes from U - U0, an estimate of the step's end, what the step does not resolve: of stiff motions h^2 a_0 / 2 is
 /// (omega h)^2 / 2 times their amplitude. Multipliers become those of U0. Leaves J of the step's beginning in the
 /// solver. Collective.

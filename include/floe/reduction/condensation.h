@@ -12,17 +12,18 @@ namespace floe::reduction {
 /// makes the second part small where the body can bend without stretching or shearing. The third part has no such
 /// displacement in the basis: with stiff membranes or shear it costs EA e(phi, theta)^2 q^6 that the body avoids, and
 /// the reduced body locks where its slopes are 0.1 to 0.3. In beams of two nodes with slopes of rotated nodes it is the
-/// third-order difference of these to the deflection in between, of weight 12 EI / h^2. Its displacement is of no
-/// account, its energy is not. So the energy is the least one over static displacements W beyond the basis: the strain
-/// of every product is taken less the part that these can cancel,
+/// third-order difference of these to the deflection in between, of weight 12 EI / h^2. The displacement of third order
+/// is small, the energy that its absence costs is not. So the energy becomes its minimum over static displacements W
+/// beyond the basis: the strain of every product loses the part that these can cancel,
 ///
 ///   min_w 1/2 |L (V q + W w) + e(q, q)|^2 :   e  <-  e - P e,   P the projector on the strains of W,  V'K W = 0,
 ///   K w_n = -sum_g w_g L'D e(u_n, v_n)   at sampled deformations, u_n of modes, v_n of derivatives (products.h)
 ///
 /// The energy stays a sum of squares and is never greater than before; as V'K W = 0, its linear part and the stiffness
 /// by stresses of first order stay. Products of two modes that have their derivative have no part P; all terms up to
-/// the fifth order in q_a follow from displacements of first and second order alone (2n + 1 theorem). Without the part
-/// of some products only, what modes and attachment modes of amplitudes of second and third order cancel would be left.
+/// the fifth order in q_a follow from displacements of first and second order alone (2n + 1 theorem). All products lose
+/// P e: modes and attachment modes also have amplitudes of second and third order, and their strains cancel a part of
+/// those of derivatives; if products with derivatives alone lost it, |P e|^2 of the others would remain as stiffness.
 ///
 /// Of bodies of shells and spatial beams with strains of second order, on fewer basis vectors than half their
 /// dofs; others return as they are. Bending becomes one of the squares (F).

@@ -1,0 +1,180 @@
+#include "generalized_alpha_data.h"
+
+// What a step can resolve: J^-1 (M shift_a x), J = M shift_a + C shift_v + K, is near x for slow motions and near 0 for
+// stiff and strongly damped ones. Applied to accelerations after events, to A' of a start, to A - a where the step
+// changes, and to estimates of a step's end.
+
+namespace floe::solve {
+namespace {
+
+// y = M x at the step's beginning: M e x is F(.., A + e x) - F(.., A), for F is linear in A; e makes an acceleration of
+// x.
+PetscErrorCode multiply_inertia(TS ts, PetscReal e, Vec x, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_A, e, x, data->A0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, y));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_A));
+  PetscCall(VecAXPY(y, -1, data->work_A));
+  PetscCall(VecScale(y, 1 / e));
+  PetscFunctionReturn(0);
+}
+
+// x <- J^-1 (M shift_a x), with the constraint rows C_q x. The operator acts on motions, not on coordinates: a frame
+// that rotates and elastic coordinates that rotate it back are one motion, whatever the stiffness of either coordinate
+// by itself.
+PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* reason) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(multiply_inertia(ts, e, x, data->work_F));
+  PetscCall(multiply_scaled(ts, x, data->work_V));
+  {
+    const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
+    Changed rows(data->work_F);
+    for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
+      rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a * rows[i] : seen[i];
+  }
+  PetscCall(solve_scaled(ts, data->work_F, x));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscCall(VecPointwiseMult(x, x, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
+// sqrt(x' M x) at the state that the step begins with; e as in multiply_inertia.
+PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(multiply_inertia(ts, e, x, data->work_F));
+  PetscCall(VecDot(x, data->work_F, norm));
+  *norm = PetscSqrtReal(PetscMax(*norm, 0));
+  PetscFunctionReturn(0);
+}
+
+// x <- A_0 - A_before.
+PetscErrorCode jump_of_accelerations(GeneralizedAlpha* data, Vec x) {
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(x, -1, data->A_before, data->A0));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+PetscErrorCode take_jacobian(TS ts) {
+  Mat P;
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
+  PetscCall(scale_jacobian(ts, P));
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPSetReusePreconditioner(ksp, PETSC_FALSE));
+  PetscCall(KSPSetOperators(ksp, P, P));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode jacobian_of_beginning(TS ts, PetscReal shift_v, Vec A) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  if (!A) PetscCall(VecSet(data->work_A, 0));
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, shift_v, data->shift_a, J, P));
+  PetscCall(take_jacobian(ts));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode resolve_accelerations(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal whole, lost;
+
+  PetscFunctionBegin;
+  if (passed_since_event(ts, data->h)) PetscFunctionReturn(0);
+  PetscCall(jump_of_accelerations(data, data->V1));
+  PetscCall(VecCopy(data->V1, data->work_U));
+  PetscCall(inertia_norm(ts, 1, data->V1, &whole));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+  if (reason < 0) PetscFunctionReturn(0);
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
+  PetscCall(inertia_norm(ts, 1, data->V1, &lost));
+  if (!(lost > 0.5 * whole)) PetscFunctionReturn(0);
+  PetscCall(jacobian_of_beginning(ts, 0, nullptr));
+  PetscCall(jump_of_accelerations(data, data->work_U));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecWAXPY(data->A0, 1, data->A_before, data->work_U));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode resolve_jerk(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  for (PetscInt twice = 0; twice < 2; ++twice) {
+    PetscCall(leave_out_stiff(ts, data->h, data->jerk, &reason));
+    PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+               "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode resolved_share(TS ts, PetscReal* share) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal whole, lost;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, -1, data->a0, data->A0));
+  PetscCall(VecCopy(data->work_U, data->V1));
+  PetscCall(inertia_norm(ts, 1, data->V1, &whole));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Change of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
+  PetscCall(inertia_norm(ts, 1, data->V1, &lost));
+  *share = whole > 0 ? PetscMax(0, 1 - 5 * lost / whole) : 1;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal whole, lost, kept, coasting;
+
+  PetscFunctionBegin;
+  *reach = 0;
+  PetscCall(jacobian_of_beginning(ts, 0, data->A0));
+  PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
+  PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
+  PetscCall(VecCopy(data->work_U, data->V1));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V1, &whole));
+  PetscCall(leave_out_stiff(ts, data->shift_a, data->work_U, &reason));
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V1, &lost));
+  if (reason < 0 || !(lost > 1e-3 * whole)) PetscFunctionReturn(0);
+  PetscCall(inertia_norm(ts, data->shift_a, data->work_U, &kept));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V0, &coasting));
+  PetscCall(VecWAXPY(U, 1, data->U0, data->work_U));
+  *reach = 2 * kept + data->h * coasting;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode distance(TS ts, Vec U, PetscReal* far) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
+  PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
+  PetscCall(inertia_norm(ts, data->shift_a, data->work_U, far));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::solve
