@@ -5,6 +5,7 @@
 
 #include <exception>
 
+#include "floe/petsc/blas_kernel.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
 
@@ -38,6 +39,7 @@ inline double option(const char* name, double value) {
 
 /// Runs the program between SlepcInitialize and SlepcFinalize. @return  its exit code
 inline int execute(int argc, char** argv, void (*run)()) {
+  petsc::use_better_blas_kernel(argv);  // as floe does
   petsc::check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
   petsc::collect_errors();
   petsc::prepare_mumps();

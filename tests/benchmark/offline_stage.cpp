@@ -198,6 +198,7 @@ void run() {
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   report.note("ranks", std::to_string(size));
+  report.note("blas", fmt::format("\"{}\"", petsc::blas_kernel()));
   report.note("dofs", std::to_string(structure.dofs()));
   report.note("memory", fmt::format("{:.0f}", memory()));
   report.note("columns", std::to_string(basis.columns));
