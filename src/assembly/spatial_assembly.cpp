@@ -76,8 +76,9 @@ bool SpatialAssembly::stands(int j) const {
   }
   const Joint& joint = plan_.scene.joints[j];
   const Anchor* place = constrained_place(plan_, j);
-  return place && place->body >= 0 && slots_[place->body].still && plan_.joint_constrained[j] &&
-         !is_drive(joint.kind) && !switches_.contains(joint.name);
+  if (!place || place->body < 0 || !slots_[place->body].still || !plan_.joint_constrained[j]) return false;
+  if (is_reduced(formulation_) && !modes_satisfy_joints(plan_.bodies[place->body])) return false;
+  return !is_drive(joint.kind) && !switches_.contains(joint.name);
 }
 
 const fem::Conditions& SpatialAssembly::constrained(int b) const {

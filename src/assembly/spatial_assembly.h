@@ -126,6 +126,7 @@ class SpatialAssembly {
   void add_state_loads(Model& model);
   std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model) const;
   void refuse_loose_supports() const;
+  void refuse_unsatisfied_edges() const;
   /// Gives probes of reactions what their joints exert on dofs that these hold without rows. Collective.
   void add_held_reactions(Model& model);
   /// Null: on none. Collective.

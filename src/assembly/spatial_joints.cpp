@@ -7,6 +7,7 @@
 #include "drive.h"
 #include "floe/dynamics/spatial_spring.h"
 #include "floe/petsc/values.h"
+#include "floe/plan/attachments.h"
 #include "spatial_assembly.h"
 #include "spatial_rows.h"
 #include "start_shape.h"
@@ -193,10 +194,33 @@ void SpatialAssembly::refuse_loose_supports() const {
           fmt::format("{}: body {} has a frame of its own, and supports hold bodies without one; expected "
                       "no frame in the body, or joints instead of supports",
                       body.frame.where.text(), body.name));
+    if (is_reduced(formulation_) && !modes_satisfy_joints(plan_.bodies[place.body]))
+      throw InputError(
+          fmt::format("{}: of is frame, but body {} has a support, which its modes have to satisfy; "
+                      "expected of: joints",
+                      body.reduction.modes.where.text(), body.name));
     throw InputError(
         fmt::format("{}: its body can still move as a whole; expected supports and other joints to the ground that "
                     "leave body {} no rigid motion, without events of these",
                     joint.where.text(), body.name));
+  }
+}
+
+/// Of a frame that does not move: modes of the frame satisfy its conditions alone, those of one node for instance, and
+/// constraint equations of a joint on several nodes hold their mean, not each.
+void SpatialAssembly::refuse_unsatisfied_edges() const {
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const Joint& joint = plan_.scene.joints[j];
+    const Anchor* place = constrained_place(plan_, j);
+    if (!is_reduced(formulation_) || !place || place->body < 0 || !slots_[place->body].still ||
+        !plan_.joint_constrained[j] || place->line || place->moved_by().size() <= 1 ||
+        modes_satisfy_place(plan_.bodies[place->body], *place))
+      continue;
+    const Body& body = plan_.bodies[place->body].spec;
+    throw InputError(
+        fmt::format("{}: of is frame, but joint {} fixes {} nodes of body {}, each of which its modes have to satisfy; "
+                    "expected of: joints",
+                    body.reduction.modes.where.text(), joint.name, place->nodes.size(), body.name));
   }
 }
 
@@ -211,6 +235,7 @@ void SpatialAssembly::add_joints(Model& model) {
   std::vector<Piece> pieces;
   std::string notes;
   refuse_loose_supports();
+  refuse_unsatisfied_edges();
   const auto find = [&] {
     count_uses();
     for (int j = 0; j < static_cast<int>(plan_.joints.size()); ++j) {

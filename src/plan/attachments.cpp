@@ -18,6 +18,20 @@ using petsc::check;
 
 bool of_frame(const PlannedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
 
+bool modes_satisfy_joints(const PlannedBody& body) {
+  const fem::Conditions& conditions = body.frame.conditions;
+  return !of_frame(body) ||
+         std::includes(conditions.begin(), conditions.end(), body.constrained.begin(), body.constrained.end());
+}
+
+bool modes_satisfy_place(const PlannedBody& body, const Anchor& place) {
+  const fem::Conditions& conditions = body.frame.conditions;
+  const PetscInt n = body.structure.dofs_per_node;
+  return !of_frame(body) || std::all_of(body.constrained.begin(), body.constrained.end(), [&](PetscInt dof) {
+    return !place.moved_by(dof / n) || std::binary_search(conditions.begin(), conditions.end(), dof);
+  });
+}
+
 bool balanced_by_joints(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
   if (body.structure.dimension() == 2 && body.frame.kind != fem::ReferenceFrame::Kind::mean_axis) return false;

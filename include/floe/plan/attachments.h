@@ -7,6 +7,13 @@ namespace floe::plan {
 /// Whether the modes are those of the body in its frame alone, not as joints hold it.
 bool of_frame(const PlannedBody& body);
 
+/// Whether the modes satisfy all that joints to the ground hold of the body, so that these need no constraint equations
+/// where its frame is fixed: modes of the frame satisfy its conditions only.
+bool modes_satisfy_joints(const PlannedBody& body);
+
+/// Whether they satisfy what joints to the ground hold of the nodes of this place.
+bool modes_satisfy_place(const PlannedBody& body, const Anchor& place);
+
 /// Whether the loads of its attachments are balanced by the joints that hold its modes, and by rigid accelerations only
 /// in motions that these leave free: in space (in the plane, of mean-axis frames), where no event unlocks a joint.
 bool balanced_by_joints(const Plan& plan, int index);
