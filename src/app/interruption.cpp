@@ -11,6 +11,7 @@ namespace {
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t noted = 0;
+int within = 0;  // how many Interruptions live
 
 int greatest(MPI_Comm comm) {
   int number = noted;
@@ -21,6 +22,7 @@ int greatest(MPI_Comm comm) {
 }  // namespace
 
 Interruption::Interruption() {
+  if (within++ > 0) return;
   noted = 0;
   struct sigaction note {};
   note.sa_handler = [](int number) { noted = number; };
@@ -29,6 +31,7 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
+  if (--within > 0) return;
   for (int i = 0; i < 3; ++i) sigaction(signals[i], &before_[i], nullptr);
 }
 

@@ -6,7 +6,7 @@
 namespace floe::app {
 
 /// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, so that the step under way ends and the files are
-/// finished; the second one ends the program as always.
+/// finished; the second one ends the program as always. One within the life of another changes nothing.
 class Interruption {
  public:
   Interruption();
@@ -15,7 +15,7 @@ class Interruption {
   ~Interruption();
   /// @throws RunError  one of the ranks of `comm` was told to end. Collective.
   void check(MPI_Comm comm) const;
-  /// Whether a rank of `comm` was told to end since the last Interruption began. Collective.
+  /// Whether a rank of `comm` was told to end since the last outermost Interruption began. Collective.
   static bool happened(MPI_Comm comm);
 
  private:

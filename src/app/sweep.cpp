@@ -12,6 +12,7 @@
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/rank.h"
+#include "floe/petsc/together.h"
 #include "interruption.h"
 #include "run.h"
 #include "sweep_file.h"
@@ -123,7 +124,7 @@ void measure(Member& member, std::size_t columns) {
 /// Of ranks that do not lead the fault alone. Collective on the group.
 Member simulate_member(const Plan& plan, std::size_t number, Offline& offline, const Group& group) {
   Member member;
-  try {
+  const std::string fault = petsc::failed_together(group.comm, [&] {
     const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[number]);
     RunPlan quiet;
     quiet.quiet = true, quiet.estimate = plan.estimate;
@@ -133,7 +134,7 @@ Member simulate_member(const Plan& plan, std::size_t number, Offline& offline, c
     };
     if (plan.estimate) ++offline.reductions;  // with the factors that estimates need
     const RunResult result = plan.estimate ? run(scene, plan.formulation, group.comm, std::nullopt, quiet) : shared();
-    if (!group.leads) return member;
+    if (!group.leads) return;
     member.steps = result.steps;
     member.end = result.end;
     for (std::size_t i = 0; i < result.series.t.size(); ++i) {
@@ -143,12 +144,8 @@ Member simulate_member(const Plan& plan, std::size_t number, Offline& offline, c
     measure(member, result.series.columns.size());
     member.warnings = result.warnings;
     if (plan.estimate) read_errors(result, member);
-  } catch (const RunError& error) {
-    member = {.fault = error.what()};
-  } catch (const InputError& error) {
-    member = {.fault = error.what()};
-  }
-  return member;
+  });
+  return fault.empty() ? member : Member{.fault = fault};
 }
 
 /// A member as numbers, the texts of its fault and of its warnings last, each ended by a zero.
@@ -280,19 +277,20 @@ Plan plan_of(const SweepRequest& request, int ranks) {
 }
 
 /// Columns of the probes, as the scene has them. Those of a first model, which is built for nothing else, are the
-/// members'.
-std::vector<assembly::ProbeColumn> columns_of(const Plan& plan, Offline& offline) {
+/// members'. Collective.
+std::vector<assembly::ProbeColumn> columns_of(const Plan& plan, Offline& offline, MPI_Comm comm) {
+  std::vector<assembly::ProbeColumn> columns;
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
-    try {
+    const auto build = [&] {
       const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[m]);
-      return assembly::probe_columns(assembly::build_on(offline.bodies(plan, m, scene), scene));
-    } catch (const RunError&) {
-      if (m + 1 == plan.members.size()) throw;
-    } catch (const InputError&) {
-      if (m + 1 == plan.members.size()) throw;
-    }
+      columns = assembly::probe_columns(assembly::build_on(offline.bodies(plan, m, scene), scene));
+    };
+    if (m + 1 == plan.members.size())
+      petsc::together(comm, build);
+    else if (petsc::failed_together(comm, build).empty())
+      break;
   }
-  return {};
+  return columns;
 }
 
 ordered_json summary_of(const Plan& plan, const SweepRequest& request, MPI_Comm comm) {
@@ -324,7 +322,7 @@ void sweep_into(const SweepRequest& request, MPI_Comm comm, const output::Result
   output::remove_replaced(comm, folder);
   petsc::agree(comm, [&] {
     if (group.number != 0) return;
-    const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline);
+    const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline, group.comm);
     if (rank != 0) return;
     std::vector<std::string> paths;
     for (const Varied& each : request.varied) paths.push_back(each.path);

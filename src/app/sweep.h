@@ -59,9 +59,9 @@ struct SweepRequest {
 /// Groups of ranks_per_member consecutive ranks (the last one of what remains) prepare and simulate members of their
 /// own: member i in group i mod the number of groups, so that neighbours, which cost alike, go to different groups, and
 /// nothing depends on who is faster. Bodies are reduced anew only where what they are made of
-/// changes (scene::offline_inputs). A member that fails is told of and spares the others; what members warn of is told
-/// at the end, once for all that have it. Rank 0 writes members in their order into sweep.h5 and sweep.csv, as they
-/// come in: a sweep that is killed leaves whole files.
+/// changes (scene::offline_inputs). A member that fails is reported, and the others go on; warnings of members are
+/// printed at the end, once for all that have them. Rank 0 writes members in their order into sweep.h5 and sweep.csv,
+/// as they come in: a sweep that is killed leaves whole files.
 /// @throws InputError  before anything is simulated: more ranks for a member than there are, a path that the scene does
 /// not have, a folder in use
 /// @throws RunError    members failed, how many and the first reason; it was interrupted. Collective.

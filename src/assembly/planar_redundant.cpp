@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 /// = (R, theta, eta), body by body.
 class JointRows {
  public:
-  /// @param rows  of each of the scene's joints, those that stand so far
+  /// @param rows  of each of the scene's joints, those that have been kept so far
   JointRows(const Plan& plan, const std::vector<ReducedBody>& reduced, const std::vector<int>& joints,
             const std::vector<std::vector<int>>& rows)
       : plan_(plan), reduced_(reduced) {
@@ -52,14 +52,14 @@ class JointRows {
   }
 
   /// The row that is furthest from its value where the kept ones have met theirs, the bodies deformed and driven, and
-  /// moved by so many parts of the extent; and how far, in extents or radians. Infinite where the kept ones are not
-  /// met.
+  /// moved by so many parts of the extent (driven by a tenth of `deformed`); and how far, in extents or radians.
+  /// Infinite where the kept ones are not met.
   std::pair<Index, double> departure(const std::vector<Index>& kept, int sample, double moved, double deformed) const {
     VectorXd wanted = rows_.values(start_, 0, nullptr);
     Index end = 0;
     for (const Entry& entry : entries_) {
       end += static_cast<Index>(entry.rows.size());
-      if (entry.driven) wanted[end - 1] += 0.1 * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
+      if (entry.driven) wanted[end - 1] += 0.1 * deformed * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
     }
     VectorXd q = start_;
     for (Index i = 0; i < q.size(); ++i)
@@ -201,18 +201,22 @@ void leave_out_of_body(const Plan& plan, const std::vector<ReducedBody>& reduced
   take_out(plan, rows, gradient, kept, independent, undetermined);
 }
 
-/// Whether the rows that are not kept stay satisfied wherever the others do; not where they depend on these at the
-/// start alone, in a singular position. Near one, large moves lead to another branch: smaller ones tell.
+/// Whether the rows that are not kept remain satisfied wherever the others are; not where they depend on these at the
+/// start alone, in a singular position. Near such a position large moves can lead to another branch, on which a row
+/// departs by as much as the bodies move: then smaller moves decide. A row that departs by less is one that touches the
+/// others' motion to a higher order (a guide along the straight part of Watt's curve).
 bool follow(const JointRows& rows, const std::vector<Index>& kept) {
   for (const double moved : {0.05, 0.01, 0.002}) {
     int tried = 0;
-    bool departs = false;
-    for (int sample = 0; sample < 8 && tried < 4 && !departs; ++sample) {
+    bool branched = false;
+    for (int sample = 0; sample < 8 && tried < 4 && !branched; ++sample) {
       const double far = rows.departure(kept, sample, moved, 20 * moved).second;
       if (!std::isfinite(far)) continue;
-      ++tried, departs = far > 1e-10;
+      branched = far >= 0.1 * moved;
+      if (far > 1e-10 && !branched) return false;
+      ++tried;
     }
-    if (tried > 0 && !departs) return true;
+    if (tried > 0 && !branched) return true;
   }
   return false;
 }

@@ -1,6 +1,7 @@
 #include "floe/petsc/blas_kernel.h"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -26,7 +27,7 @@ std::string better_blas_kernel() {
 
 void use_better_blas_kernel(char** argv) {
   const std::string kernel = better_blas_kernel();
-  if (kernel.empty()) return;
+  if (kernel.empty() || getauxval(AT_BASE) == 0) return;  // 0: started through the dynamic loader, which is the "exe"
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error || setenv("OPENBLAS_CORETYPE", kernel.c_str(), 0) != 0) return;

@@ -240,7 +240,9 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
     throw;
   } catch (const petsc::Error& error) {
     const std::string text = error.what();
-    if (error.code() == PETSC_ERR_MAT_LU_ZRPVT && report.steps > 0)
+    const std::vector<char>& multiplier = system.coordinates().multiplier();
+    if (error.code() == PETSC_ERR_MAT_LU_ZRPVT && report.steps > 0 &&
+        std::find(multiplier.begin(), multiplier.end(), 1) != multiplier.end())
       stop(fmt::format(
           "the equations of a step are singular: the mechanism is in a position in which the constraints of "
           "its joints depend on one another (cranks in line with their rod), or they are redundant ({})",

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""floe sweep on one rank and on two: the same members to the last bit, what single runs give, and a member that fails; on three ranks
-with two for a member: the same to solver tolerance."""
+"""floe sweep on one rank and on two: the same members to the last bit, what single runs give, and a member that fails; on two and three
+ranks with two for a member: the same to solver tolerance."""
 import csv
 import json
 import pathlib
@@ -55,6 +55,25 @@ def killed(floe, folder):
     assert len(rows) > done and all(abs(float(row[1]) - 0.01 * m) < 1e-9 for m, row in enumerate(rows[1:], 1)), rows
 
 
+def interrupted(floe, folder):
+    """A signal ends a sweep after the member under way, also while a body is reduced, which takes the most time here."""
+    (folder / "offline.yaml").write_text(SCENE.replace("elements: 4", "elements: 1500").replace("modes: 2", "modes: 12")
+                                         .replace("end: 0.3", "end: 0.02"))
+    words = ["sweep", "offline.yaml", "--vary", "L=1:2:0.02", "-o", "interrupted"]
+    began = time.monotonic()
+    process = subprocess.Popen([str(floe), *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    summary, done = folder / "interrupted/summary.json", 0
+    while process.poll() is None and done == 0:
+        time.sleep(0.05)
+        done = json.loads(summary.read_text())["done"] if summary.exists() else 0
+        assert time.monotonic() - began < 100, "nothing is saved in 100 s"
+    process.terminate()
+    text = process.communicate()[1]
+    assert process.returncode == 1 and "interrupted by signal 15" in text, (process.returncode, text)
+    assert "not simulated: the sweep was interrupted" in text, text
+    assert json.loads(summary.read_text())["status"] == "failed"
+
+
 def main():
     floe = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as name:
@@ -75,12 +94,13 @@ def main():
             assert numpy.array_equal(probes, b["probes"][:])
             columns = json.loads(a["columns"][()])
             assert len(columns["members"]) == members.shape[1] and len(columns["probes"]) == probes.shape[1]
-        done = run(floe, 3, folder, *words, "--ranks-per-member", "2", "-o", "groups")
-        assert done.returncode == 1 and done.stderr.count("failed: ") == 3 and "3 of 6 members failed" in done.stderr, done.stderr
-        assert "; 1 reductions of bodies" in done.stdout, done.stdout  # the other group has the members that fail
-        with h5py.File(folder / "groups/sweep.h5") as a:
-            assert numpy.allclose(a["probes"][:], probes, rtol=1e-8, atol=1e-12)
-            assert numpy.array_equal(a["members"][:, 0], members[:, 0])
+        for ranks in (2, 3):
+            done = run(floe, ranks, folder, *words, "--ranks-per-member", "2", "-o", f"groups{ranks}")
+            assert done.returncode == 1 and done.stderr.count("failed: ") == 3 and "3 of 6 members failed" in done.stderr, done.stderr
+            assert "; 1 reductions of bodies" in done.stdout, done.stdout  # of three ranks the last has the members that fail
+            with h5py.File(folder / f"groups{ranks}/sweep.h5") as a:
+                assert numpy.allclose(a["probes"][:], probes, rtol=1e-8, atol=1e-12)
+                assert numpy.array_equal(a["members"][:, 0], members[:, 0])
         done = run(floe, 2, folder, *words, "--ranks-per-member", "3", "-o", "none")
         assert done.returncode == 2 and "--ranks-per-member: is 3; expected 1 to 2" in done.stderr, done.stderr
         assert not (folder / "none").exists()
@@ -118,6 +138,7 @@ def main():
         assert run(floe, 1, folder, "run", "one.yaml", "--no-estimate", "-o", "one").returncode == 0
         assert warning["text"] in json.loads((folder / "one/summary.json").read_text())["warnings"]
         killed(floe, folder)
+        interrupted(floe, folder)
     print("sweeps agree")
 
 

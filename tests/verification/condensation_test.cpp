@@ -54,7 +54,7 @@ motion: {{end: 1, step: 1e-2}}
 probes: {{t: {{at: b.end, quantity: displacement}}}}
 )yaml",
                                                   elements, reduction, gravity, force),
-                                      "scene")) < 1.5e-3);
+                                      "scene")) < 1e-3);
   }
 }
 

@@ -20,10 +20,13 @@ namespace floe::reduction {
 ///   K w_n = -sum_g w_g L'D e(u_n, v_n)   at sampled deformations, u_n of modes, v_n of derivatives (products.h)
 ///
 /// The energy stays a sum of squares and is never greater than before; as V'K W = 0, its linear part and the stiffness
-/// by stresses of first order stay. Products of two modes that have their derivative have no part P; all terms up to
-/// the fifth order in q_a follow from displacements of first and second order alone (2n + 1 theorem). All products lose
-/// P e: modes and attachment modes also have amplitudes of second and third order, and their strains cancel a part of
-/// those of derivatives; if products with derivatives alone lost it, |P e|^2 of the others would remain as stiffness.
+/// by stresses of first order stay. Where the derivatives are static, theta = -K^-1 L'D e, of all pairs of modes, and
+/// the body is straight or flat, products of modes have no part P and all terms up to the fifth order in q_a remain
+/// (2n + 1 theorem). Pairs without derivative, and curved bodies, whose e(phi, phi) has a part on L phi, change from
+/// the fourth order on, towards the energy with all derivatives. Loads and joints do no work on W: what they exert on
+/// the sampled deformations' higher orders alone is not represented. All products lose P e: modes and attachment modes
+/// also have amplitudes of second and third order, and their strains cancel a part of those of derivatives; if products
+/// with derivatives alone lost it, |P e|^2 of the others would remain as stiffness.
 ///
 /// Of bodies of shells and spatial beams with strains of second order, on fewer basis vectors than half their
 /// dofs; others return as they are. Bending becomes one of the squares (F).
