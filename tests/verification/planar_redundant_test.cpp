@@ -109,3 +109,26 @@ TEST_CASE("planar redundant: what is not determined is refused") {
   CHECK_THAT(fault_of_motion(cranks("type: revolute", "events: {u: {at: 0.5, unlock: f}}")),
              Contains("joint f is redundant with other joints, and an event unlocks it"));
 }
+
+// The middle of Watt's linkage departs from its guide by the fifth power of its motion only, and then is stuck.
+TEST_CASE("planar redundant: a guide along the straight part of Watt's curve does not follow from the linkage") {
+  CHECK_THROWS_WITH(move(R"yaml(
+bodies:
+  c1: {rigid: true, mesh: {line: {from: [0, 0.5], to: [2, 0.5], elements: 2}}, section: {EA: 1e6, EI: 10, rhoA: 1}}
+  cp: {rigid: true, mesh: {line: {from: [2, 0.5], to: [2, -0.5], elements: 2}}, section: {EA: 1e6, EI: 10, rhoA: 1}}
+  c2: {rigid: true, mesh: {line: {from: [2, -0.5], to: [4, -0.5], elements: 2}}, section: {EA: 1e6, EI: 10, rhoA: 1}}
+  slider: {rigid: true, mesh: {line: {from: [2, 0], to: [2, 0.2], elements: 2}}, section: {EA: 1e6, EI: 10, rhoA: 1}}
+joints:
+  a: {type: revolute, between: [ground, c1.start]}
+  b: {type: revolute, between: [c1.end, cp.start]}
+  c: {type: revolute, between: [cp.end, c2.start]}
+  d: {type: revolute, between: [c2.end, ground]}
+  g: {type: prismatic, axis: [0, 1], between: [ground, slider.start]}
+  h: {type: revolute, between: [slider.start, {body: cp, node: [2, 0]}]}
+motion: {end: 0.1, step: 1e-2}
+probes: {s: {at: slider.start, quantity: position}}
+gravity: [0, -2]
+)yaml",
+                         Formulation::vm_md),
+                    Contains("redundant or contradictory constraints"));
+}
