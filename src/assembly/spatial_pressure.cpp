@@ -44,16 +44,20 @@ body::Pressure pressure_of_file(const Load& load, const Body& body, Eigen::Index
   return k == all ? sum : body::projected(sum, Eigen::MatrixXd::Identity(all, k));
 }
 
-/// The shells that a pressure acts on. Collective.
+/// The shells that a pressure acts on: several parts of a deck have one name where the thickness, offset or orientation
+/// of its elements differs. Collective.
 Chosen shells_of(const Load& load, const PlannedBody& body) {
-  const auto part = std::find(body.parts.begin(), body.parts.end(), load.part);
-  if (!load.part.empty() && part == body.parts.end()) refuse_part(load, body.spec.name, body.parts);
-  const int wanted = load.part.empty() ? -1 : static_cast<int>(part - body.parts.begin());
-  Chosen chosen = [wanted](const fem::Mesh::Cell& cell) {
-    return fem::is_shell(cell) && (wanted < 0 || cell.part == wanted);
+  if (!load.part.empty() && std::find(body.parts.begin(), body.parts.end(), load.part) == body.parts.end())
+    refuse_part(load, body.spec.name, body.parts);
+  const auto named = [parts = body.parts, name = load.part](int part) {
+    return name.empty() || parts[static_cast<std::size_t>(part)] == name;
   };
+  Chosen chosen = [named](const fem::Mesh::Cell& cell) { return fem::is_shell(cell) && named(cell.part); };
   const fem::Mesh& mesh = body.structure.mesh;
   int any = std::any_of(mesh.cells.begin(), mesh.cells.end(), chosen) ? 1 : 0;
+  if (body.spec.piece > 0)  // another frame of the body may have them
+    for (std::size_t i = 0; i < body.structure.sections.size(); ++i)
+      if (std::holds_alternative<fem::ShellSection>(body.structure.sections[i]) && named(static_cast<int>(i))) any = 1;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
   if (any == 0)
     throw InputError(fmt::format("{}: {} of body {} has no shells; expected a pressure on shells", load.where.text(),

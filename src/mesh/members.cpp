@@ -24,15 +24,14 @@ std::vector<PetscInt> told_members(const RawMesh& mesh, const std::vector<PetscI
 std::vector<PetscInt> members_of(const RawMesh& mesh, const std::string& name) {
   const auto place = std::find(mesh.places.begin(), mesh.places.end(), name);
   if (place != mesh.places.end()) return told_members(mesh, mesh.place_nodes[place - mesh.places.begin()]);
-  const auto part = std::find(mesh.parts.begin(), mesh.parts.end(), name);
-  if (part == mesh.parts.end()) {
+  if (std::find(mesh.parts.begin(), mesh.parts.end(), name) == mesh.parts.end()) {
     auto known = mesh.places;
     known.insert(known.end(), mesh.parts.begin(), mesh.parts.end());
     throw InputError(mesh.source + ": there is no place or part " + in_quotes(name) + suggestion(name, known));
   }
   std::vector<PetscInt> nodes;
   for (const auto& cell : mesh.cells)
-    if (cell.part == part - mesh.parts.begin())
+    if (mesh.parts[static_cast<std::size_t>(cell.part)] == name)  // several parts may have it
       nodes.insert(nodes.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
   return told_members(mesh, nodes);
 }

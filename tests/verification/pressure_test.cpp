@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "floe/assembly/reduced_bodies_file.h"
 #include "space_twin.h"
+#include "spatial_scenes.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -129,4 +132,33 @@ TEST_CASE("pressure: a body from its file moves as with its mesh, following and 
                 "  flap: {reduced: " + path + "}\n");
   wrong.insert(wrong.find("pressure: \"600*t\""), "part: skin, ");
   CHECK_THROWS_WITH(move(wrong, Formulation::vm_md), Catch::Contains("flap has no part \"skin\"; expected one of "));
+}
+
+// Elements whose thicknesses at the corners differ are parts of their own, all of the property's name.
+TEST_CASE("pressure: on all parts of a deck that have the name") {
+  const Scratch scratch;
+  std::string deck = "BEGIN BULK\nMAT1,1,7.+10,,0.3,2700.\nPSHELL,1,1,0.01,1,,1\n";
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j < 2; ++j) deck += fmt::format("GRID,{},,{},{},0.\n", 2 * i + j + 1, 0.25 * i, 0.5 * j);
+  for (int i = 0; i < 4; ++i) {
+    const double start = 0.01 + 0.002 * i, end = start + 0.002;
+    deck += fmt::format("CQUAD4,{},1,{},{},{},{}\n,,,{},{},{},{}\n", i + 1, 2 * i + 1, 2 * i + 3, 2 * i + 4, 2 * i + 2,
+                        start, end, end, start);
+  }
+  deck += "SPC1,1,123456,1,2\nENDDATA\n";
+  write_text((scratch.path / "plate.bdf").string(), deck);
+  const auto force = [&](const std::string& part) {
+    const History at = rest(fill(R"yaml(
+bodies: {b: {mesh: {file: {path: $path}}, reduction: {modes: 3}}}
+joints: {root: {type: fixed, between: [ground, b.SPC1]}}
+loads: {p: {type: pressure, body: b, $part pressure: 10}}
+motion: {end: 1, step: 0.1}
+probes: {f: {joint: root}}
+)yaml",
+                                 {{"path", (scratch.path / "plate.bdf").string()}, {"part", part}}),
+                            Formulation::lffr);
+    return at["f.z"].back();
+  };
+  CHECK(force("") == Approx(-5).epsilon(1e-6));
+  CHECK(force("part: PSHELL1,") == Approx(-5).epsilon(1e-6));
 }
