@@ -268,7 +268,7 @@ void BodyStress::add_shell(const fem::Mesh::Cell& cell, const Fields& fields, st
 }
 
 void BodyStress::add_beam(const fem::Mesh::Cell& cell, const Fields& fields, std::vector<SmallRows>& values) const {
-  const fem::BeamForces forces(body_.structure, cell);
+  const fem::BeamForces forces(body_.structure, cell, linear_);
   const fem::Section& section = body_.structure.sections[cell.part];
   const fem::StressPoints& points = body_.points[static_cast<std::size_t>(cell.part)];
   const SmallRows q = displacements(cell, fields);

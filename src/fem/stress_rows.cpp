@@ -90,8 +90,8 @@ SmallRows layer_strain(const ShellSection& section, double z, const Eigen::Ref<c
   return s.topRows(3) + (z * Eigen::Matrix3d::Identity() - section.coupling) * s.bottomRows(3);
 }
 
-BeamForces::BeamForces(const Structure& structure, const Mesh::Cell& cell)
-    : plane_(structure.dimension() == 2), rotation_vectors_(false) {
+BeamForces::BeamForces(const Structure& structure, const Mesh::Cell& cell, bool linear)
+    : plane_(structure.dimension() == 2), linear_(linear), rotation_vectors_(false) {
   const auto x = [&](int i) -> const Eigen::Vector3d& { return structure.mesh.positions[cell.place[i]]; };
   if (plane_) {
     const auto& section = std::get<BeamSection>(structure.sections[cell.part]);
@@ -102,7 +102,7 @@ BeamForces::BeamForces(const Structure& structure, const Mesh::Cell& cell)
     return;
   }
   const auto& beam = std::get<SpatialBeam>(structure.sections[cell.part]);
-  rotation_vectors_ = beam.strain.strains == Strains::second_order;
+  rotation_vectors_ = beam.strain.strains == Strains::second_order && !linear_;
   if (cell.kind == CellKind::line) {
     const BeamPlace place{x(0), x(1), beam.orientation};
     maps_ = spatial_beam(place, beam.section, beam.strain);
@@ -119,6 +119,10 @@ BeamForces::BeamForces(const Structure& structure, const Mesh::Cell& cell)
 BeamForces::Ends BeamForces::operator()(const Eigen::VectorXd& q) const {
   Eigen::VectorXd f = maps_.bending * q;
   for (const StrainPoint& point : maps_.membrane) {
+    if (linear_) {
+      f += point.weight * (point.L.transpose() * (point.D * (point.L * q)));
+      continue;
+    }
     const Eigen::VectorXd slope = point.G * q;
     const Eigen::VectorXd sigma = point.D * (point.L * q + 0.5 * point.bilinear(slope, slope));
     f += point.weight * (point.L.transpose() * sigma);
@@ -134,7 +138,7 @@ BeamForces::Ends BeamForces::operator()(const Eigen::VectorXd& q) const {
     } else {
       force = f.segment<3>(6 * i), moment = f.segment<3>(6 * i + 3), theta = q.segment<3>(6 * i + 3);
     }
-    const Eigen::Matrix3d rotation = math::rotation(theta);
+    const Eigen::Matrix3d rotation = linear_ ? Eigen::Matrix3d::Identity() : math::rotation(theta);
     if (rotation_vectors_)  // conjugate to changes of theta: the spin in rotated axes is T dtheta
       moment = rotation * math::rotation_tangent(theta).transpose().inverse() * moment;
     const Eigen::Matrix3d section = rotation * axes_[static_cast<std::size_t>(i)];

@@ -99,6 +99,30 @@ def beams(folder):
         close(found["section_force"], np.tile([100, 2, 3], (12, 1)), 0.01, f"{formulation} forces")
 
 
+def linear_beam(folder):
+    """A linear motion has linear stresses: M / W, no axial force, whatever the deflection (here 8 % of the length); also of a
+    reduced body with a linear elastic force."""
+    scene = """
+bodies:
+  b:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 10}}
+    section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 2.1e11, nu: 0.3, rho: 7800}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 3, attachment: all, elastic_force: linear}
+joints: {root: {type: fixed, between: [ground, b.start]}}
+loads: {f: {type: force, at: b.end, force: [0, 0, 84]}}
+probes: {tip: {at: b.end}}
+"""
+    for formulation in ("lffr", "vm+md"):
+        path, _ = recovered(FLOE, folder, scene, formulation=formulation)
+        found = Fields(path, "b")
+        worst = 84 * (1.05 - found.x[:, 0]) / (0.02 * 0.01**2 / 6)  # at the start of the element
+        close(found["stress_max"], worst, 0.01, f"{formulation} fibres")
+        close(found["stress_min"], -worst, 0.01, f"{formulation} fibres")
+        assert np.abs(found["section_force"][:, 0]).max() < 1e-6 * 84, f"{formulation} axial force"
+
+
 def round_bars(folder):
     """N / A, |M| r / I and T r / J of bars and tubes bent about two axes and twisted, read from decks."""
     deck = "*NODE\n" + "".join(f"{i + 1}, {i / 10}, 0, 0\n" for i in range(11)) + "*ELEMENT, TYPE=B31, ELSET=bar\n" + "".join(
@@ -347,7 +371,7 @@ def springs_are_no_elements(folder):
 
 
 def main():
-    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, round_bars, large_rotations, reduced_against_full_order,
+    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, linear_beam, round_bars, large_rotations, reduced_against_full_order,
              corrected_from_the_start, body_from_a_file,
              the_same_on_ranks, singular_places, springs_are_no_elements, refusals]
     if shutil.which("ccx"):

@@ -48,7 +48,8 @@ SmallRows layer_strain(const ShellSection& section, double z, const Eigen::Ref<c
 /// In the plane N, V and M alone. Distributed inertia and loads of the element are not seen: V is that of its middle.
 class BeamForces {
  public:
-  BeamForces(const Structure& structure, const Mesh::Cell& cell);
+  /// @param linear  of small deflections: without quadratic strains, in the axes of the undeformed element
+  BeamForces(const Structure& structure, const Mesh::Cell& cell, bool linear = false);
   struct Ends {
     std::array<Eigen::Vector3d, 2> force, moment;
   };
@@ -58,7 +59,7 @@ class BeamForces {
  private:
   ElementMaps maps_;
   std::array<Eigen::Matrix3d, 2> axes_;
-  bool plane_, rotation_vectors_;
+  bool plane_, linear_, rotation_vectors_;
 };
 
 /// Normal stress in a section of a beam, least and greatest over its fibres. [Pa]
