@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "floe/dynamics/system.h"
 #include "floe/petsc/values.h"
 
@@ -11,6 +13,15 @@ void set_owned(const Coordinates& coordinates, petsc::Values& owned, int i, doub
 }
 
 }  // namespace
+
+double System::greatest_rotation(Vec U) const {
+  if (!has_attitudes_) return 0;
+  gather(U, local_.q);
+  double greatest = 0;
+  for (const auto& [first, attitude] : attitudes_) greatest = std::max(greatest, local_.q.segment<3>(first).norm());
+  if (!whole_) petsc::check(MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, comm()));
+  return greatest;
+}
 
 void System::rebase(Vec U) const {
   if (!has_attitudes_) return;

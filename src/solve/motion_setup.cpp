@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "floe/petsc/options.h"
@@ -55,7 +56,16 @@ petsc::IsHandle frame_angles(const System& system, Vec U) {
 
 PetscErrorCode rebase_rotations(TS, Vec U, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
-  return c.guard.run([&] { c.system.rebase(U); });
+  return c.guard.run([&] {
+    const double turned = c.system.greatest_rotation(U);
+    if (turned > M_PI)
+      throw RunError(fmt::format(
+          "a frame or node rotates by {:.3g} rad in a step (limit 3.14, half a revolution); take shorter steps, or "
+          "a load that grows within some steps: a sudden moment on a node rotates it the more, the smaller "
+          "its elements",
+          turned));
+    c.system.rebase(U);
+  });
 }
 
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
