@@ -222,6 +222,8 @@ class Search {
       count_ = trials_.fewest(order_, count_, step_, time_budget());
     }
     selection_ = trials_.first_of(order_, count_);
+    // All in the order can be fewer than all, and too few to satisfy the joints.
+    if (!trials_.tried(selection_, step_).failed.empty()) selection_ = candidates_->whole();
   }
 
   /// Linear, without derivatives, which would have no effect.

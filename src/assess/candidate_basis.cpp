@@ -202,6 +202,7 @@ CandidateBasis::CandidateBasis(const Scene& scene, MPI_Comm comm) : parts_(std::
     parts.add_derivatives(b, offered[whole_name(parts.body(b).spec)]);
     parts.sources[b].statics = std::move(parts.sources[b].stage.statics);
   }
+  parts.reduced.clear();  // those of the ranking have no factors
 }
 
 CandidateBasis::~CandidateBasis() = default;

@@ -367,3 +367,29 @@ probes: {tip: {at: beam.end}}
   CHECK(moved.out_of_range[0].value == Approx(0.53).epsilon(0.4));  // 1 for .603 of the length (elastica)
   CHECK(std::count(moved.warnings.begin(), moved.warnings.end(), moved.out_of_range[0].text) == 1);
 }
+
+// A shaft whose bearings leave a small basis redundant constraints, and one whose bodies have no derivatives to add to
+// those that rank the vectors: both were refused.
+TEST_CASE("accuracy: shafts in bearings") {
+  const std::string text = R"yaml(
+bodies:
+  s:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 4}}
+    section: {shape: circle, radius: 0.01, orientation: [0, 1, 0]}
+    material: {E: 2.1e11, nu: 0.3, rho: 7850}
+    $disk
+joints:
+  a: {type: driven, between: [ground, s.start], axis: [1, 0, 0], angle: "60*t^2"}
+  b: {type: cylindrical, between: [ground, s.end], axis: [1, 0, 0]}
+loads: {f: {type: force, at: s.middle, force: [0, 0, "50*sin(30*t)"]}}
+motion: {end: 0.1, step: 1e-3}
+probes: {d: {at: s.middle}}
+)yaml";
+  for (const std::string disk :
+       {"masses: {d: {at: [0.25, 0, 0], mass: 4}}", "reduction: {modes: 4, derivatives: none}"}) {
+    INFO(disk);
+    const app::Chosen chosen =
+        app::choose(scene::parse_scene(fill(text, {{"disk", disk}}), "scene"), {0.05, true}, PETSC_COMM_WORLD);
+    CHECK(chosen.supported < 0.05);
+  }
+}
