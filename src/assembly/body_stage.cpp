@@ -58,13 +58,25 @@ void omit_products(const ReductionSpec& spec, ReducedBody& reduced) {
 
 }  // namespace
 
-void finish_elasticity(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced) {
+void find_relief(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced) {
+  reduced.relief = {};
+  if (body.spec.reduction.linear) return;
+  reduction::Columns W =
+      reduction::relief(body.structure, *reduced.basis, statics, reduced.body, following(*reduced.basis));
+  if (!W.empty()) reduced.relief.W = std::make_shared<const reduction::Columns>(std::move(W));
+}
+
+void condense(const PlannedBody& body, ReducedBody& reduced) {
+  reduced.body.elasticity =
+      reduction::condensed(body.structure, *reduced.basis, reduced.body.elasticity, reduced.relief);
+}
+
+void finish_elasticity(const PlannedBody& body, ReducedBody& reduced) {
   if (body.spec.reduction.linear) {
     reduced.body.elasticity = body::linearised(reduced.body.elasticity);
     return;
   }
-  reduced.body.elasticity =
-      reduction::condensed(body.structure, *reduced.basis, statics, reduced.body, following(*reduced.basis));
+  condense(body, reduced);
   omit_products(body.spec.reduction, reduced);
 }
 
@@ -223,7 +235,8 @@ void project_onto(const PlannedBody& body, std::shared_ptr<reduction::Basis> bas
                   const reduction::Modes& modes, ReducedBody& reduced) {
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
-  finish_elasticity(body, statics, reduced);
+  find_relief(body, statics, reduced);
+  finish_elasticity(body, reduced);
   reduced.damping = modal_damping(body, reduced, modes);
   reduced.report.columns = reduced.basis->columns;
   reduced.report.origins = reduced.basis->origins;

@@ -131,12 +131,13 @@ ReducedBodies reduced_bodies(Offline& offline, Formulation formulation, bool kee
         all.warnings, keep_offline || responding);
     for (std::size_t b = 0; b < all.bodies.size(); ++b) join_start(plan.bodies[b], all.bodies[b]);
     warn_of_files(all);
-    if (!responding) return all;
-    offline.reduced = std::move(all.bodies);
-    add_residual_responses(offline, all.warnings);
-    all.bodies = std::exchange(offline.reduced, {});
+    if (responding) {
+      offline.reduced = std::move(all.bodies);
+      add_residual_responses(offline, all.warnings);
+      all.bodies = std::exchange(offline.reduced, {});
+    }
     for (ReducedBody& body : all.bodies)
-      if (!keep_offline) body.statics.reset();
+      if (!keep_offline) body.statics.reset(), body.relief = {};
     return all;
   }
   for (std::size_t b = 0; b < all.bodies.size(); ++b)

@@ -13,8 +13,8 @@ using petsc::check;
 
 namespace {
 
-/// The greatest of the deformations, and up to `most` in all of which a good part is in none before.
-std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most) {
+/// The greatest of the deformations, and up to `most` in all of which at least this part of it is in none before.
+std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most, double part = 0.5) {
   if (loads[0].eta.size() == 0) return {};
   Eigen::MatrixXd left(loads[0].eta.size(), static_cast<Eigen::Index>(loads.size()));
   for (std::size_t i = 0; i < loads.size(); ++i) left.col(static_cast<Eigen::Index>(i)) = loads[i].eta;
@@ -24,7 +24,7 @@ std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most
     Eigen::Index at = 0;
     const double size = left.colwise().norm().maxCoeff(&at);
     greatest = std::max(greatest, size);
-    if (!chosen.empty() && !(size > 0.5 * greatest)) break;
+    if (!chosen.empty() && !(size > part * greatest)) break;
     if (!(size > 0)) break;
     chosen.push_back(static_cast<std::size_t>(at));
     const Eigen::VectorXd direction = left.col(at) / size;
@@ -32,6 +32,10 @@ std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most
   }
   return chosen;
 }
+
+/// Deformations whose products with new columns are relieved: how many, and what part of the greatest counts.
+constexpr int most_relieved = 8;
+constexpr double least_relieved = 0.01;
 
 /// Of the largest deformation, in the norm of M: responses below are round-off of the residuals, and directions that
 /// the basis has already or that its frame excludes.
@@ -43,6 +47,7 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
                              const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes) {
   if (loads.empty()) return {};
   std::vector<Eigen::VectorXd> tangents_at = {Eigen::VectorXd::Zero(loads[0].eta.size())};
+  if (reduced.relief.W) tangents = 0;
   for (const std::size_t i : unlike(loads, tangents)) tangents_at.push_back(loads[i].eta);
   std::vector<reduction::Columns> met(tangents_at.size());
   for (const ResidualLoad& one : loads) {
@@ -57,7 +62,7 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
     reduction::Columns u;
     if (i > 0) {
       const petsc::VecHandle q = fem::field(body.structure);
-      combine(*reduced.basis, tangents_at[i], q);
+      combine_relieved(reduced, tangents_at[i], q);
       u = reduced.statics->solve_bent(q, met[i]);
       unbent = unbent || (u.empty() && !met[i].empty());
     }
@@ -104,6 +109,16 @@ reduction::Columns main_columns(const fem::Structure& structure, const reduction
   return columns;
 }
 
+void relieve(const PlannedBody& body, const std::vector<ResidualLoad>& loads, const reduction::Columns& W,
+             const ReducedBody& reduced, ReducedBody& more) {
+  if (!reduced.relief.W || loads.empty()) return;
+  std::vector<Eigen::VectorXd> deformations;
+  for (const std::size_t i : unlike(loads, most_relieved, least_relieved)) deformations.push_back(loads[i].eta);
+  reduction::Columns all = reduction::relief(body.structure, *reduced.basis, *reduced.statics, deformations, W);
+  for (const petsc::VecHandle& w : *reduced.relief.W) all.push_back(reduction::copy(w));
+  more.relief.W = std::make_shared<const reduction::Columns>(std::move(all));
+}
+
 ReducedBody with_columns(const PlannedBody& body, const ReducedBody& reduced, const reduction::Columns& W) {
   using reduction::ColumnOrigin;
   const int k = reduced.body.coordinates();
@@ -124,6 +139,7 @@ ReducedBody with_columns(const PlannedBody& body, const ReducedBody& reduced, co
   more.basis = std::make_shared<reduction::Basis>(
       reduction::orthonormal_basis(body.structure, all, std::move(origins), body.spec.reduction.drop_tolerance));
   more.body = reduction::project(body.structure, *more.basis);
+  more.relief.W = reduced.relief.W;
   more.report = reduced.report;
   more.report.basis = more.basis;
   more.report.columns = more.basis->columns;

@@ -62,7 +62,7 @@ State lifted_to_more_columns(const State& state, const Model& reduced, const Mod
 }
 
 void lift_to_full_order(const State& state, const Model& reduced, const Offline& offline, const Model& full, Vec U,
-                        Vec V, Vec A) {
+                        Vec V, Vec A, bool relieved) {
   State lifted = zero_state(state, full);
   lifted.bases.resize(full.system->attitudes().size());  // without those of damping
   for_each_shared(reduced, full, [&](int i, int j) { copy_entry(state, i, lifted, j); });
@@ -76,7 +76,11 @@ void lift_to_full_order(const State& state, const Model& reduced, const Offline&
     }
     const petsc::VecHandle field = fem::field(offline.plan.bodies[b].structure);
     for (const auto& [from, to] : {std::pair(&state.q, &lifted.q), {&state.v, &lifted.v}, {&state.a, &lifted.a}}) {
-      combine(*offline.reduced[b].basis, from->segment(mine.first_elastic, mine.columns), field);
+      const VectorXd eta = from->segment(mine.first_elastic, mine.columns);
+      if (relieved && from == &state.q)
+        combine_relieved(offline.reduced[b], eta, field);
+      else
+        combine(*offline.reduced[b].basis, eta, field);
       petsc::Values own(field);
       std::copy(own.begin(), own.begin() + (own.end - own.first), to->data() + theirs.first_dof);
     }

@@ -87,7 +87,7 @@ void Residuals::add(const std::vector<State>& states) {
 Residuals::Lifted Residuals::lifted(const State& state) {
   const dynamics::System& system = *full_.system;
   Lifted one{state.t, {}, {}, {}, {}, system.create_vector()};
-  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
+  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_, true);
   system.rebase(U_);
   system.residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, one.F);
   if (!apart()) return one;

@@ -42,7 +42,8 @@ void take_residuals(const Model& model, const KeptMotion& motion, Residuals& res
 }
 
 /// The body on V and W, with the origins of both. @param number  of responses that it has
-ReducedBody joined(const PlannedBody& body, const ReducedBody& reduced, const reduction::Columns& W, int number) {
+ReducedBody joined(const PlannedBody& body, const ReducedBody& reduced, const std::vector<ResidualLoad>& loads,
+                   const reduction::Columns& W, int number) {
   ReducedBody more = with_columns(body, reduced, W);
   more.statics = reduced.statics;
   more.report.origins = reduced.report.origins;
@@ -55,7 +56,8 @@ ReducedBody joined(const PlannedBody& body, const ReducedBody& reduced, const re
     origins[i].label = fmt::format("response {}", ++number);
     more.report.origins.push_back(origins[i]);
   }
-  finish_elasticity(body, *more.statics, more);
+  relieve(body, loads, W, reduced, more);
+  finish_elasticity(body, more);
   return more;
 }
 
@@ -93,7 +95,7 @@ void add_residual_responses(Offline& offline, std::vector<std::string>& warnings
       const reduction::Columns W =
           main_columns(body.structure, responses(body, reduced, residuals.loads(b), most_tangents, warnings), most);
       const int before = reduced.body.coordinates();
-      if (!W.empty()) reduced = joined(body, reduced, W, has[b]);
+      if (!W.empty()) reduced = joined(body, reduced, residuals.loads(b), W, has[b]);
       has[b] += reduced.body.coordinates() - before;
       more = more || reduced.body.coordinates() > before;
       reduced.report.seconds_projection += MPI_Wtime() - start;

@@ -62,6 +62,12 @@ ReducedBody shared_body(const Plan& plan, int index, const SharedReduction& shar
   if (shared.placement.rotates && original.basis) {
     reduced.basis = placed(body.structure, shared.placement, *original.basis);
     reduced.report.basis = reduced.basis;
+    if (original.relief.W) {
+      reduction::Columns W;
+      for (const petsc::VecHandle& w : *original.relief.W)
+        W.push_back(fem::placed(body.structure, shared.placement, w));
+      reduced.relief.W = std::make_shared<const reduction::Columns>(std::move(W));
+    }
     reduced.statics = nullptr;
   }
   return reduced;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/combination.h"
 #include "floe/assembly/enrichment.h"
 #include "floe/body/elasticity.h"
@@ -49,8 +50,8 @@ void join(const PlannedBody& body, Vec field, double whole, const Norm& norm, co
   if (!(part > limit * whole)) return;
   ReducedBody more = with_columns(body, reduced, rest);
   if (more.body.coordinates() == reduced.body.coordinates()) return;  // round-off of the basis
-  if (body.spec.reduction.linear) more.body.elasticity = body::linearised(more.body.elasticity);
   more.statics = reduced.statics;
+  finish_elasticity(body, more);
   more.report.origins.push_back({reduction::ColumnOrigin::Kind::attachment, label});
   more.report.origins.back().new_part = part / whole;
   reduced = std::move(more);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "estimate_parts.h"
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/enrichment.h"
 #include "floe/assembly/lift.h"
 #include "floe/assembly/residual_loads.h"
@@ -82,6 +83,8 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     if (W->empty()) continue;
     estimate.responses.back() = W;
     bodies.back() = with_columns(body, reduced, *W);
+    relieve(body, residuals.loads(b), *W, reduced, bodies.back());
+    condense(body, bodies.back());
     estimate.columns += bodies.back().body.coordinates() - reduced.body.coordinates();
   }
   return bodies;

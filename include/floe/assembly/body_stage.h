@@ -61,8 +61,15 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
 void project_onto(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
                   const reduction::Modes& modes, ReducedBody& reduced);
 
-/// reduction.elastic_force, strains of third order (reduction::condensed) and reduction.products, of a body that was
+/// The displacements over which the energy of the body is to be condensed (ReducedBody::relief), of one that was
 /// projected with all products. Collective.
-void finish_elasticity(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced);
+void find_relief(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced);
+
+/// The elasticity condensed over what `relief` has (reduction::condensed). Collective.
+void condense(const PlannedBody& body, ReducedBody& reduced);
+
+/// reduction.elastic_force, condense() and reduction.products, of a body that was projected with all products.
+/// Collective.
+void finish_elasticity(const PlannedBody& body, ReducedBody& reduced);
 
 }  // namespace floe::assembly

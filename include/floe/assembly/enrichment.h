@@ -14,8 +14,10 @@ struct ResidualLoad {
 /// Where K_T has no factor, that of rest, and a note reports it. Those below 1e-8 of the maximum deformation, which are
 /// round-off, are left out. Collective. A factorisation for each tangent.
 ///
-/// K at rest alone would lock: what bends a wide thin shell further stretches it, unless the same column holds the way
-/// out, and that depends on how far it is bent.
+/// Of bodies whose energy is condensed K is that of rest: the products of the columns with the deformations are
+/// relieved (relieve), and about a deformation V eta on a fine mesh the stresses of terms of higher order would
+/// dominate K_T. In others K at rest alone would lock: what bends a wide thin shell further stretches it, unless the
+/// same column holds the way out, and that depends on how far it is bent.
 reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
                              const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes);
 
@@ -23,8 +25,13 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
 /// below 1e-4 of the maximum are left out. Collective.
 reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most);
 
-/// The body on [V W]: its first coordinates are those that it has. Rayleigh damping acts on all, modal damping on the
-/// first. Collective.
+/// Extends the relief of `more`, the body on [V W], by that of the products of V eta, up to four deformations of the
+/// loads, and W. Collective.
+void relieve(const PlannedBody& body, const std::vector<ResidualLoad>& loads, const reduction::Columns& W,
+             const ReducedBody& reduced, ReducedBody& more);
+
+/// The body on [V W], its elasticity as projected (condense, finish_elasticity): its first coordinates are those that
+/// it has. Rayleigh damping acts on all, modal damping on the first. Collective.
 ReducedBody with_columns(const PlannedBody& body, const ReducedBody& reduced, const reduction::Columns& W);
 
 }  // namespace floe::assembly

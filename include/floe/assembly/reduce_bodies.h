@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "floe/assembly/model.h"
+#include "floe/reduction/condensation.h"
 
 namespace floe::assembly {
 
@@ -13,6 +14,7 @@ struct ReducedBody {
   Eigen::MatrixXd of_fields;  ///< coordinates of the generating fields from those of V; ranking's linear run only
   BodyReport report;
   std::shared_ptr<const reduction::Statics> statics = {};  ///< if they were to be kept
+  reduction::Relief relief = {};                           ///< likewise
   double strain_rate_damping = 0;                          ///< beta of a body from a file [s]
 };
 

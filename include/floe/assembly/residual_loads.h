@@ -20,7 +20,8 @@ Model full_order(Offline& offline, bool apart = false);
 /// V'r by plain products.
 Eigen::VectorXd products(const reduction::Basis& basis, Vec r);
 
-/// Full-order residuals at prolonged states q = V eta of a reduced model, body by body:
+/// Full-order residuals at prolonged states q = V eta of a reduced model, with the displacements over which energies of
+/// bodies are condensed, body by body:
 ///
 ///   r = M(q) q'' - Q_v + dU/dq - Q_e + C_q' lambda
 class Residuals {

@@ -24,7 +24,9 @@ struct Estimate {
   std::string by;                ///< simulation that it is the difference to; empty: residuals
   int samples = 0;               ///< full-order residuals
   int columns = 0;               ///< that the bodies got for the estimate
-  double unbalanced = 0;         ///< maximum |V'r| of what |V'f| is: round-off, or what omitted products do
+  /// Maximum |V'r| of what |V'f| is: round-off, what omitted products do, or terms beyond the third order of energies
+  /// that are condensed.
+  double unbalanced = 0;
   double seconds = 0, allowed = 0;
   std::vector<std::string> notes;                                    ///< what was left out, and why
   std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none

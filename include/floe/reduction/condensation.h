@@ -1,9 +1,32 @@
 #pragma once
+#include <memory>
+
 #include "floe/body/flexible_body.h"
 #include "floe/reduction/basis.h"
 #include "floe/reduction/statics.h"
 
 namespace floe::reduction {
+
+/// Static displacements W beyond the basis over which an energy is condensed, and those of the minimum at V q, which
+/// are V on_V s + W on_W s, s the products of the pairs.
+struct Relief {
+  std::shared_ptr<const Columns> W;        ///< null: none
+  std::vector<std::pair<int, int>> pairs;  ///< a <= b
+  Eigen::MatrixXd on_V, on_W;              ///< columns of V x pairs, of W x pairs
+};
+
+/// The static displacements W of `condensed`, of bodies of shells and spatial beams with strains of second order, on
+/// fewer basis vectors than half their dofs; of others none.
+///
+/// @param follows  of each coordinate whether it is a derivative's; if none is, there is no W
+/// Collective. Some 32 solves with the factor of `statics`.
+Columns relief(const fem::Structure& structure, const Basis& basis, const Statics& statics,
+               const body::FlexibleBody& body, const std::vector<char>& follows);
+
+/// Those of the products of deformations V q and other fields, one for each pair.
+/// Collective. As many solves.
+Columns relief(const fem::Structure& structure, const Basis& basis, const Statics& statics,
+               const std::vector<Eigen::VectorXd>& deformations, const Columns& fields);
 
 /// The elastic energy of a body whose strains of third order are condensed statically.
 ///
@@ -28,12 +51,14 @@ namespace floe::reduction {
 /// also have amplitudes of second and third order, and their strains cancel a part of those of derivatives; if products
 /// with derivatives alone lost it, |P e|^2 of the others would remain as stiffness.
 ///
-/// Of bodies of shells and spatial beams with strains of second order, on fewer basis vectors than half their
-/// dofs; others return as they are. Bending becomes one of the squares (F).
+/// Bending becomes one of the squares (F).
 ///
-/// @param follows  of each coordinate whether it is a derivative's; if none is, nothing changes
-/// Collective. Some 32 solves with the factor of `statics`, and the factor F once more with as many columns besides.
-body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, const Statics& statics,
-                           const body::FlexibleBody& body, const std::vector<char>& follows);
+/// @param relief  W: none: the elasticity returns as it is; receives the displacements of the minimum
+/// Collective. The factor F once more with as many columns besides.
+body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, const body::Elasticity& elasticity,
+                           Relief& relief);
+
+/// field += the displacement of the minimum at V q. Collective.
+void add_relief(const Basis& basis, const Relief& relief, const Eigen::VectorXd& q, Vec field);
 
 }  // namespace floe::reduction
