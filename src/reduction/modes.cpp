@@ -239,7 +239,12 @@ Modes ModeSolver::solve(int count) {
                           !inverse.ksp};
   Found found = lowest_pairs(search, M_, count);
   std::vector<double> errors;
-  if (inverse.ksp) errors = purify(inverse, M_, holding_.constrained, found);
+  try {
+    if (inverse.ksp) errors = purify(inverse, M_, holding_.constrained, found);
+  } catch (const petsc::Error& error) {
+    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    throw too_fine(structure_, "its modes do not converge");
+  }
   modes.raw = std::move(found.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
   std::vector<double> lambda =
