@@ -47,7 +47,6 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
                              const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes) {
   if (loads.empty()) return {};
   std::vector<Eigen::VectorXd> tangents_at = {Eigen::VectorXd::Zero(loads[0].eta.size())};
-  if (reduced.relief.W) tangents = 0;
   for (const std::size_t i : unlike(loads, tangents)) tangents_at.push_back(loads[i].eta);
   std::vector<reduction::Columns> met(tangents_at.size());
   for (const ResidualLoad& one : loads) {
@@ -62,7 +61,7 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
     reduction::Columns u;
     if (i > 0) {
       const petsc::VecHandle q = fem::field(body.structure);
-      combine_relieved(reduced, tangents_at[i], q);
+      combine(*reduced.basis, tangents_at[i], q);
       u = reduced.statics->solve_bent(q, met[i]);
       unbent = unbent || (u.empty() && !met[i].empty());
     }

@@ -64,9 +64,10 @@ VectorXd products(const reduction::Basis& basis, Vec r) {
   return all;
 }
 
-Residuals::Residuals(const Model& reduced, Offline& offline, PetscInt apart_from)
+Residuals::Residuals(const Model& reduced, Offline& offline, PetscInt apart_from, bool relieved)
     : reduced_(reduced),
       offline_(offline),
+      relieved_(relieved),
       full_(full_order(offline, elements_of(offline) >= apart_from)),
       U_(full_.system->create_vector()),
       V_(full_.system->create_vector()),
@@ -87,7 +88,7 @@ void Residuals::add(const std::vector<State>& states) {
 Residuals::Lifted Residuals::lifted(const State& state) {
   const dynamics::System& system = *full_.system;
   Lifted one{state.t, {}, {}, {}, {}, system.create_vector()};
-  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_, true);
+  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_, relieved_);
   system.rebase(U_);
   system.residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, one.F);
   if (!apart()) return one;

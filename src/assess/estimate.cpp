@@ -77,9 +77,9 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     if (most < max_columns)
       estimate.notes.push_back(
           fmt::format("body {}: {} basis vectors instead of {}, to save time", body.spec.name, most, max_columns));
-    const auto W = std::make_shared<const reduction::Columns>(main_columns(
-        body.structure,
-        responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1, estimate.notes), most));
+    const int tangents = reduced.relief.W ? 0 : time.half_left() ? most_tangents : 1;
+    const auto W = std::make_shared<const reduction::Columns>(
+        main_columns(body.structure, responses(body, reduced, residuals.loads(b), tangents, estimate.notes), most));
     if (W->empty()) continue;
     estimate.responses.back() = W;
     bodies.back() = with_columns(body, reduced, *W);

@@ -388,7 +388,7 @@ probes: {at: {at: strip.p3, quantity: deflection}}
 
 // The moment accelerates the node at the hinge by M / J, 2e8 rad/s^2: in the first step its rotation passes a turn,
 // which the elements do not see. The tip was 80 times too slow, with an energy of 745 kJ.
-TEST_CASE("corotational in space: a node that rotates by more than half a turn in a step is refused") {
+TEST_CASE("corotational in space: a node that rotates by more than half a revolution in a step is refused") {
   CHECK_THROWS_WITH(move(R"yaml(
 bodies:
   b:

@@ -14,10 +14,10 @@ struct ResidualLoad {
 /// Where K_T has no factor, that of rest, and a note reports it. Those below 1e-8 of the maximum deformation, which are
 /// round-off, are left out. Collective. A factorisation for each tangent.
 ///
-/// Of bodies whose energy is condensed K is that of rest: the products of the columns with the deformations are
-/// relieved (relieve), and about a deformation V eta on a fine mesh the stresses of terms of higher order would
-/// dominate K_T. In others K at rest alone would lock: what bends a wide thin shell further stretches it, unless the
-/// same column holds the way out, and that depends on how far it is bent.
+/// K at rest alone (no tangents) would lock: what bends a wide thin shell further stretches it, unless the same column
+/// holds the way out, and that depends on how far it is bent. Where the products of the columns with the deformations
+/// are relieved (relieve), K at rest is right: about V eta on a fine mesh the stresses of terms of higher order
+/// dominate K_T.
 reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
                              const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes);
 

@@ -28,7 +28,8 @@ class Residuals {
  public:
   /// @param reduced     of offline.reduced
   /// @param apart_from  number of elements from which they are apart; in space only
-  Residuals(const Model& reduced, Offline& offline, PetscInt apart_from = many_elements);
+  /// @param relieved    with the displacements over which energies are condensed
+  Residuals(const Model& reduced, Offline& offline, PetscInt apart_from = many_elements, bool relieved = true);
   /// Whether elements are not stored, but created in each call of add().
   bool apart() const { return !full_.elements.empty(); }
   /// Elements that are apart are created once for all states. Collective.
@@ -54,6 +55,7 @@ class Residuals {
 
   const Model& reduced_;
   Offline& offline_;
+  bool relieved_;
   Model full_;
   petsc::VecHandle U_, V_, A_;
   std::vector<std::vector<ResidualLoad>> loads_;
