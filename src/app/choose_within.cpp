@@ -221,8 +221,7 @@ class Search {
         step_ *= 2;
       count_ = trials_.fewest(order_, count_, step_, time_budget());
     }
-    selection_ = trials_.first_of(order_, count_);
-    // All in the order can be fewer than all, and too few to satisfy the joints.
+    selection_ = trials_.first_of(order_, count_);  // all of the order can be too few to satisfy the joints
     if (!trials_.tried(selection_, step_).failed.empty()) selection_ = candidates_->whole();
   }
 

@@ -36,21 +36,26 @@ def table(folder):
         return list(csv.reader(file))
 
 
-def killed(floe, folder):
-    """A sweep that is killed keeps the members that were done about a second before."""
-    (folder / "long.yaml").write_text(SCENE.replace("end: 0.3, step: 1e-2", "end: 0.3, step: 1.5e-6"))  # a second each
-    words = ["sweep", "long.yaml", "--vary", "F=0.01:0.4:0.01", "-o", "killed"]
+def members_saved(floe, folder, out, *words, **streams):
+    """Starts a sweep; the process, once it has saved members, and how many."""
     began = time.monotonic()
-    process = subprocess.Popen([str(floe), *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    summary, done = folder / "killed/summary.json", 0
+    process = subprocess.Popen([str(floe), "sweep", *words, "-o", out], cwd=folder, stdout=subprocess.DEVNULL, text=True, **streams)
+    summary, done = folder / out / "summary.json", 0
     while process.poll() is None and done == 0:
         time.sleep(0.05)
         done = json.loads(summary.read_text())["done"] if summary.exists() else 0
         assert time.monotonic() - began < 100, "nothing is saved in 100 s"
+    return process, done
+
+
+def killed(floe, folder):
+    """A sweep that is killed keeps the members that were done about a second before."""
+    (folder / "long.yaml").write_text(SCENE.replace("end: 0.3, step: 1e-2", "end: 0.3, step: 1.5e-6"))  # a second each
+    process, done = members_saved(floe, folder, "killed", "long.yaml", "--vary", "F=0.01:0.4:0.01", stderr=subprocess.DEVNULL)
     process.kill()
     process.wait()
     assert 0 < done < 40, f"{done} members were saved on the way"
-    assert json.loads(summary.read_text())["status"] == "running"
+    assert json.loads((folder / "killed/summary.json").read_text())["status"] == "running"
     rows = table(folder / "killed")
     assert len(rows) > done and all(abs(float(row[1]) - 0.01 * m) < 1e-9 for m, row in enumerate(rows[1:], 1)), rows
 
@@ -59,19 +64,12 @@ def interrupted(floe, folder):
     """A signal ends a sweep after the member under way, also while a body is reduced, which takes the most time here."""
     (folder / "offline.yaml").write_text(SCENE.replace("elements: 4", "elements: 1500").replace("modes: 2", "modes: 12")
                                          .replace("end: 0.3", "end: 0.02"))
-    words = ["sweep", "offline.yaml", "--vary", "L=1:2:0.02", "-o", "interrupted"]
-    began = time.monotonic()
-    process = subprocess.Popen([str(floe), *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    summary, done = folder / "interrupted/summary.json", 0
-    while process.poll() is None and done == 0:
-        time.sleep(0.05)
-        done = json.loads(summary.read_text())["done"] if summary.exists() else 0
-        assert time.monotonic() - began < 100, "nothing is saved in 100 s"
+    process, _ = members_saved(floe, folder, "interrupted", "offline.yaml", "--vary", "L=1:2:0.02", stderr=subprocess.PIPE)
     process.terminate()
-    text = process.communicate()[1]
+    text = process.communicate(timeout=60)[1]
     assert process.returncode == 1 and "interrupted by signal 15" in text, (process.returncode, text)
     assert "not simulated: the sweep was interrupted" in text, text
-    assert json.loads(summary.read_text())["status"] == "failed"
+    assert json.loads((folder / "interrupted/summary.json").read_text())["status"] == "failed"
 
 
 def main():
