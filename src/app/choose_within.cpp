@@ -222,7 +222,7 @@ class Search {
       count_ = trials_.fewest(order_, count_, step_, time_budget());
     }
     selection_ = trials_.first_of(order_, count_);  // all of the order can be too few to satisfy the joints
-    if (!trials_.tried(selection_, step_).failed.empty()) selection_ = candidates_->whole();
+    if (!trials_.tried(selection_, step_).failed.empty()) count_ = order_.size(), selection_ = candidates_->whole();
   }
 
   /// Linear, without derivatives, which would have no effect.

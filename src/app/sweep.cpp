@@ -320,7 +320,7 @@ void sweep_into(const SweepRequest& request, MPI_Comm comm, const output::Result
   Offline offline(group.comm);
   std::unique_ptr<SweepFile> file;
   output::remove_replaced(comm, folder);
-  petsc::agree(comm, [&] {
+  petsc::together(comm, [&] {
     if (group.number != 0) return;
     const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline, group.comm);
     if (rank != 0) return;

@@ -14,11 +14,12 @@ void set_owned(const Coordinates& coordinates, petsc::Values& owned, int i, doub
 
 }  // namespace
 
-double System::greatest_rotation(Vec U) const {
+double System::greatest_node_rotation(Vec U) const {
   if (!has_attitudes_) return 0;
   gather(U, local_.q);
   double greatest = 0;
-  for (const auto& [first, attitude] : attitudes_) greatest = std::max(greatest, local_.q.segment<3>(first).norm());
+  for (const auto& [first, attitude] : attitudes_)
+    if (attitude->of_node) greatest = std::max(greatest, local_.q.segment<3>(first).norm());
   if (!whole_) petsc::check(MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, comm()));
   return greatest;
 }

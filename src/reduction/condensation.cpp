@@ -87,7 +87,8 @@ Beyond beyond(const MatrixXd& A, const MatrixXd& B) {
   const Index count = sizes.size() > 0 ? (sizes.array() > 1e-4 * sizes[0]).count() : 0;
   const MatrixXd from_A =
       scale.asDiagonal() * main.matrixV().leftCols(count) * sizes.head(count).cwiseInverse().asDiagonal();
-  return {main.matrixU().leftCols(count), from_A, -known.solve(A * from_A)};
+  return {main.matrixU().leftCols(count), from_A,
+          -Eigen::CompleteOrthogonalDecomposition<MatrixXd>(B).solve(A * from_A)};
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, 
 }
 
 void add_relief(const Basis& basis, const Relief& relief, const VectorXd& q, Vec field) {
-  if (!relief.W) return;
+  if (!relief.W || relief.pairs.empty()) return;
   VectorXd s(static_cast<Index>(relief.pairs.size()));
   for (Index p = 0; p < s.size(); ++p) {
     const auto& [a, b] = relief.pairs[static_cast<std::size_t>(p)];

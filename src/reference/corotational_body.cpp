@@ -83,7 +83,8 @@ CorotationalBody::CorotationalBody(dynamics::Coordinates& coordinates, const fem
   for (const fem::Mesh::Cell& cell : mesh.cells)
     for (int node : cell.nodes()) moving.insert(mesh.global_node(node));
   if (owner_ || everywhere) moving.insert(visited.begin(), visited.end());
-  for (PetscInt node : moving) attitude_[node] = std::make_shared<dynamics::Attitude>();
+  for (PetscInt node : moving)
+    attitude_[node] = std::make_shared<dynamics::Attitude>(dynamics::Attitude{.of_node = true});
   start(at);
 }
 

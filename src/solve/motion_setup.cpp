@@ -56,16 +56,7 @@ petsc::IsHandle frame_angles(const System& system, Vec U) {
 
 PetscErrorCode rebase_rotations(TS, Vec U, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
-  return c.guard.run([&] {
-    const double turned = c.system.greatest_rotation(U);
-    if (turned > M_PI)
-      throw RunError(fmt::format(
-          "a frame or node rotates by {:.3g} rad in a step (limit 3.14, half a revolution); take shorter steps, or "
-          "a load that grows within some steps: a sudden moment on a node rotates it the more, the smaller "
-          "its elements",
-          turned));
-    c.system.rebase(U);
-  });
+  return c.guard.run([&] { c.system.rebase(U); });
 }
 
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
@@ -78,13 +69,23 @@ PetscErrorCode rotate_rates(TS, Vec U, PetscBool back, Vec y, void* context) {
   return c.guard.run([&] { c.system.rotate(c.axes_of_tangent, U, back == PETSC_TRUE, y); });
 }
 
-/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that rotate too far are tried
-/// again, smaller.
-PetscErrorCode check_constraints(TS ts, PetscReal t, Vec U, PetscBool* accept) {
+/// A step that ends where a joint is not met as it is meant to be, or in which a node rotates by more than half a
+/// revolution, is none. Adaptive ones that rotate too far are tried again, smaller.
+PetscErrorCode check_step(TS ts, PetscReal t, Vec U, PetscBool* accept) {
   MotionContext* c = nullptr;
   const PetscErrorCode code = TSGetApplicationContext(ts, &c);
   if (code) return code;
   return c->guard.run([&] {
+    if (const double rotation = c->system.greatest_node_rotation(U); rotation > M_PI) {
+      *accept = PETSC_FALSE;
+      if (c->adaptive) return;
+      throw RunError(fmt::format(
+          "at t = {:.6g} a node has rotated by {:.3g} rad in a step (limit 3.14, half a revolution); take shorter "
+          "steps, "
+          "or a load that grows within some steps: a sudden moment on a node rotates it the more, the smaller its "
+          "elements",
+          t, rotation));
+    }
     const System::FailedConstraint failed_constraint = c->system.failed_constraint(t, U);
     *accept = failed_constraint.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
     if (failed_constraint.joint.empty() ||
@@ -229,7 +230,7 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
                                               &context, rotate_rates, angles};
   check(TSGeneralizedAlphaSetRotations(ts, &rotations));
   check(TSSetApplicationContext(ts, &context));
-  check(TSSetFunctionDomainError(ts, check_constraints));
+  check(TSSetFunctionDomainError(ts, check_step));
   check(TSSetTimeStep(ts, how.step));
   check(TSSetMaxTime(ts, how.end));
   check(TSSetMaxSteps(ts, PETSC_MAX_INT));

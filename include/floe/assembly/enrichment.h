@@ -25,7 +25,7 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
 /// below 1e-4 of the maximum are left out. Collective.
 reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most);
 
-/// Extends the relief of `more`, the body on [V W], by that of the products of V eta, up to four deformations of the
+/// Extends the relief of `more`, the body on [V W], by that of the products of V eta, up to eight deformations of the
 /// loads, and W. Collective.
 void relieve(const PlannedBody& body, const std::vector<ResidualLoad>& loads, const reduction::Columns& W,
              const ReducedBody& reduced, ReducedBody& more);

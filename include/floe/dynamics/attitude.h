@@ -12,6 +12,9 @@ namespace floe::dynamics {
 /// time integration of constrained flexible multibody systems). Terms and markers of one frame share it.
 struct Attitude {
   Eigen::Quaterniond base = Eigen::Quaterniond::Identity();
+  /// Whether elements take their strains from it, relative to their own frames: whole revolutions within one step are
+  /// strains that they do not see.
+  bool of_node = false;
 
   /// A at x.
   Eigen::Matrix3d axes(const Eigen::Vector3d& x) const { return (base * math::quaternion(x)).toRotationMatrix(); }

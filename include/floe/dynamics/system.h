@@ -61,8 +61,8 @@ class System {
   const Attitudes& attitudes() const { return attitudes_; }
   /// Whether any rank has attitudes: the same answer on all of them.
   bool has_attitudes() const { return has_attitudes_; }
-  /// The maximum rotation of an attitude from its base at U [rad]. Collective.
-  double greatest_rotation(Vec U) const;
+  /// The maximum rotation of a node (Attitude::of_node) from its base at U [rad]. Collective.
+  double greatest_node_rotation(Vec U) const;
   /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration, at which every
   /// term begins a step (Term::begin_step). Without attitudes nothing happens. Collective.
   void rebase(Vec U) const;
