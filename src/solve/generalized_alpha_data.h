@@ -37,7 +37,7 @@ struct GeneralizedAlpha {
   // step that is longer than the time since then (passed_since_event), what it does not resolve of A - A_before is left
   // out.
   PetscBool after_event = PETSC_FALSE;
-  Vec A_before = nullptr;
+  Vec A_before = nullptr;  // at the start of the motion: A as the equations have it
   PetscReal t_event = 0;
   PetscReal event_error = 0;  // TSGeneralizedAlphaGetEventError
 
@@ -139,6 +139,9 @@ PetscErrorCode jacobian_of_beginning(TS ts, PetscReal shift_v, Vec A);
 /// A_0 without what a step that is longer than the time since an event does not resolve; J of A_0 is in the solver.
 /// What is removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
 PetscErrorCode resolve_accelerations(TS ts);
+/// A_0 of the start of the motion without what the step does not resolve, each motion for itself; a load that balances
+/// another force has no part in A_0. J of zero accelerations is in the solver. Collective.
+PetscErrorCode resolve_start(TS ts);
 /// A' of a start without what the step does not resolve; J is in the solver.
 PetscErrorCode resolve_jerk(TS ts);
 /// How much of A - a, which is h shift A' of smooth motions, the step resolves, in the norm of M: 1 where it is all, 0

@@ -1,8 +1,8 @@
 #include "generalized_alpha_data.h"
 
 // What a step can resolve: J^-1 (M shift_a x), J = M shift_a + C shift_v + K, is near x for slow motions and near 0 for
-// stiff and strongly damped ones. Applied to accelerations after events, to A' of a start, to A - a where the step
-// changes, and to estimates of a step's end.
+// stiff and strongly damped ones. Applied to accelerations at the start and after events, to A' of a start, to A - a
+// where the step changes, and to estimates of a step's end.
 
 namespace floe::solve {
 namespace {
@@ -24,7 +24,9 @@ PetscErrorCode multiply_inertia(TS ts, PetscReal e, Vec x, Vec y) {
 // x <- J^-1 (M shift_a x), with the constraint rows C_q x. The operator acts on motions, not on coordinates: a frame
 // that rotates and elastic coordinates that rotate it back are one motion, whatever the stiffness of either coordinate
 // by itself.
-PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* reason) {
+//
+// curvature: F_qq v v, if given: x keeps what of it is -K^-1 F_qq v v, whatever the stiffness.
+PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* reason, Vec curvature = nullptr) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
 
@@ -32,6 +34,7 @@ PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* re
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(multiply_inertia(ts, e, x, data->work_F));
   PetscCall(multiply_scaled(ts, x, data->work_V));
+  if (curvature) PetscCall(VecAXPY(data->work_F, -1 / data->shift_a, curvature));
   {
     const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
     Changed rows(data->work_F);
@@ -59,6 +62,49 @@ PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
 PetscErrorCode jump_of_accelerations(GeneralizedAlpha* data, Vec x) {
   PetscFunctionBegin;
   PetscCall(VecWAXPY(x, -1, data->A_before, data->A0));
+  PetscFunctionReturn(0);
+}
+
+// x <- a + (1 - (1 - R)^2) (x - a), R x = J^-1 (M shift_a x), K a = -curvature: what of x the step resolves, to the
+// fourth power of omega h. Overwrites U1. The reason is that of the last solve.
+PetscErrorCode keep_resolved_part(TS ts, PetscReal e, Vec x, Vec curvature, KSPConvergedReason* reason) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(x, data->U1));
+  PetscCall(leave_out_stiff(ts, e, x, reason, curvature));
+  if (*reason < 0) PetscFunctionReturn(0);
+  PetscCall(VecAXPY(data->U1, -1, x));
+  PetscCall(leave_out_stiff(ts, e, data->U1, reason));
+  if (*reason >= 0) PetscCall(VecAXPY(x, 1, data->U1));
+  PetscFunctionReturn(0);
+}
+
+// y <- F at (t_0, q_0 + e v) without rates.
+PetscErrorCode forces_along(TS ts, PetscReal e, Vec v, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, e, v, data->U0));
+  PetscCall(VecSet(data->work_V, 0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->work_U, data->work_V, data->work_V, y));
+  PetscFunctionReturn(0);
+}
+
+// y <- F_qq v v of the forces, a central difference (error e^2, e = h/10).
+PetscErrorCode curvature_of_forces(TS ts, Vec v, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal e = 0.1 * data->h;
+
+  PetscFunctionBegin;
+  PetscCall(forces_along(ts, 0, v, y));
+  PetscCall(VecScale(y, -2));
+  for (const PetscReal to : {e, -e}) {
+    PetscCall(forces_along(ts, to, v, data->work_A));
+    PetscCall(VecAXPY(y, 1, data->work_A));
+  }
+  PetscCall(VecScale(y, 1 / (e * e)));
+  PetscCall(VecPointwiseMult(y, y, data->dynamic));
   PetscFunctionReturn(0);
 }
 
@@ -110,6 +156,27 @@ PetscErrorCode resolve_accelerations(TS ts) {
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
   PetscCall(VecWAXPY(data->A0, 1, data->A_before, data->work_U));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode resolve_start(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal speed;
+
+  PetscFunctionBegin;
+  PetscCall(jacobian_of_beginning(ts, 0, nullptr));
+  PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
+  PetscCall(VecSet(data->a1, 0));
+  if (speed > 0) {
+    PetscCall(VecCopy(data->V0, data->V1));
+    PetscCall(keep_resolved_part(ts, 1 / data->h, data->V1, nullptr, &reason));
+    if (reason < 0) PetscFunctionReturn(0);
+    PetscCall(curvature_of_forces(ts, data->V1, data->a1));
+  }
+  PetscCall(VecCopy(data->A0, data->V1));
+  PetscCall(keep_resolved_part(ts, 1, data->V1, data->a1, &reason));
+  if (reason >= 0) PetscCall(VecCopy(data->V1, data->A0));
   PetscFunctionReturn(0);
 }
 

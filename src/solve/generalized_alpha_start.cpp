@@ -8,11 +8,18 @@
 //                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + C shift_v + K, near
 //                   1 for slow motions and 0 for stiff and strongly damped ones; what the constraints see of A' stays
+//   A_0 at the start of the motion
+//                   of stiff motions A_0 is -omega^2 times their distance from where they come to rest, as under a load
+//                   that acts suddenly on a light part, and h A_0 would make omega h times the velocities that they can
+//                   have (overshoot). So A_0 - (1 - R)^2 (A_0 - a) takes its place, R x = J^-1 M shift_a x: it is
+//                   A_0 (1 - (omega h)^4 / ..) of motions that the step resolves. a is the acceleration that keeps
+//                   forces constant to second order along the velocity, as far as the step resolves it, K a + F_qq v v
+//                   = 0 (centripetal ones of elements that rotate), so that J a_1 = M shift_a A_0 - F_qq v v. A' is
+//                   that of the equations along the motion with this acceleration
 //   A_0 after events
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
-//                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
-//                   amplitude, and h A_0 would make omega h times the velocities that they can have (overshoot).
-//                   Also later, where a step of a constrained system is longer than the time since the event
+//                   than half of it in the norm of M: a joint was released. Also later, where a step of a constrained
+//                   system is longer than the time since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink. There velocities and normal part follow the constraints as far as the step resolves A - a
@@ -73,7 +80,8 @@ PetscErrorCode accelerations_later(TS ts, Mat inertia, PetscReal e) {
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode differentiate(TS ts, Mat inertia) {
+// A' of a motion with the acceleration A0, whose equations give `known` at its beginning.
+PetscErrorCode differentiate(TS ts, Mat inertia, Vec known) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal exact = (ts->ptime + 0.01 * data->h) - ts->ptime, e = exact > 0 ? exact : 0.01 * data->h;
 
@@ -81,7 +89,7 @@ PetscErrorCode differentiate(TS ts, Mat inertia) {
   PetscCall(accelerations_later(ts, inertia, e));
   PetscCall(VecCopy(data->work_A, data->jerk));
   PetscCall(accelerations_later(ts, inertia, 2 * e));
-  PetscCall(VecAXPBYPCZ(data->jerk, -1.5 / e, -0.5 / e, 2 / e, data->A0, data->work_A));
+  PetscCall(VecAXPBYPCZ(data->jerk, -1.5 / e, -0.5 / e, 2 / e, known, data->work_A));
   PetscFunctionReturn(0);
 }
 
@@ -187,10 +195,17 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(measure_scales(ts, data->start ? nullptr : &inertia));
   PetscCall(set_scales(ts));
   if (!data->start) PetscCall(accelerations(ts, inertia, ts->ptime, data->U0, data->V0, data->A0));
-  PetscCall(differentiate(ts, inertia));
-  PetscCall(take_jacobian(ts));
-  if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(mark_origin(ts));
+  if (ts->steps == 0 && !data->after_event) {
+    PetscCall(VecCopy(data->A0, data->A_before));
+    PetscCall(resolve_start(ts));
+    PetscCall(differentiate(ts, inertia, data->A_before));
+    PetscCall(jacobian_of_beginning(ts, 0, data->A0));
+  } else {
+    PetscCall(differentiate(ts, inertia, data->A0));
+    PetscCall(take_jacobian(ts));
+  }
+  if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(resolve_accelerations(ts));
   PetscCall(jacobian_of_beginning(ts, data->shift_v, data->A0));
   PetscCall(resolve_jerk(ts));
@@ -214,7 +229,7 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(resolved_share(ts, &share));
   PetscCall(project_velocity(ts, share));
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
-  PetscCall(differentiate(ts, nullptr));
+  PetscCall(differentiate(ts, nullptr, data->A0));
   PetscCall(split_normal(ts));
   PetscCall(VecScale(data->normal, share));
   if (!passed_since_event(ts, data->h)) {

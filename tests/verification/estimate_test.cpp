@@ -45,16 +45,16 @@ TEST_CASE("estimate: cantilever of the paper") {
                       {Formulation::vm, Formulation::vm_md});
 }
 
-// nlffr in steps of 1e-4 s: errors of 0.031 % (tip) and 0.42 % (edge), those of the step included.
+// nlffr in the same steps: errors of 0.0021 % (tip) and 0.029 % (edge). Below 0.1 % the estimate need not find all.
 TEST_CASE("estimate: a strip of shells released from a bent shape, to the end of its motion") {
   const Estimated reduced = move_and_estimate(released_strip, Formulation::vm_md);
   REQUIRE(reduced.estimate.none == "");
   REQUIRE(reduced.estimate.probes.size() == 2);
   CHECK(reduced.estimate.t.back() == Approx(0.4));
-  CHECK(reduced.estimate.probes[0] > 0.3 * 0.00031);
-  CHECK(reduced.estimate.probes[0] < 3 * 0.00031);
-  CHECK(reduced.estimate.probes[1] > 0.3 * 0.0042);
-  CHECK(reduced.estimate.probes[1] < 3 * 0.0042);
+  CHECK(reduced.estimate.probes[0] > 0.2 * 0.000021);
+  CHECK(reduced.estimate.probes[0] < 3 * 0.000021);
+  CHECK(reduced.estimate.probes[1] > 0.2 * 0.00029);
+  CHECK(reduced.estimate.probes[1] < 3 * 0.00029);
 }
 
 TEST_CASE("estimate: pendulum, arm, slider-crank") {
