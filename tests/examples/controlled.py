@@ -45,7 +45,7 @@ def moved(scene, folder, reactions=(), see=lambda out: None):
     both = []
     for ranks in (1, 2):
         out = folder / f"{ranks}"
-        floe("run", scene, "--formulation", "vm+md", "--no-estimate", "-o", out, ranks=ranks)
+        floe("run", scene, "--formulation", "vm+md", "--no-estimate", "-o", out, "-motion_snes_rtol", "1e-12", ranks=ranks)
         both.append(columns(out))
         see(out)
         shutil.rmtree(out)
