@@ -1,4 +1,4 @@
-"""Energy of a run versus time, change of its total, and violation of the constraints."""
+"""Energy of a run versus time, the potential from the start on, change of its total, and violation of the constraints."""
 import numpy as np
 
 from style import COLOURS, DASHES, pyplot, save
@@ -9,14 +9,15 @@ PARTS = ["kinetic", "elastic", "potential"]
 
 def draw(run, path, dpi):
     run.load()
-    t, energy = run.t, run.energy
+    t, energy = run.t, run.energy.copy()
+    energy[:, PARTS.index("potential")] -= energy[0, PARTS.index("potential")]  # that of the origin may hide all else
     total = energy.sum(1)
     drift = run.constraints is not None and np.any(run.constraints > 0)
     figure, panels = pyplot().subplots(2 + drift, 1, sharex=True, layout="constrained", figsize=(WIDTH, 5.2 + 1.9 * drift),
                                        height_ratios=[1.5, 1, 1][:2 + drift])
     for i, name in enumerate(PARTS):
         if np.any(energy[:, i] != 0):
-            line, = panels[0].plot(t, energy[:, i], color=COLOURS[i], linewidth=2.2, label=name)
+            line, = panels[0].plot(t, energy[:, i], color=COLOURS[i], linewidth=2.2, label="potential\n(from the start)" if name == "potential" else name)
             if DASHES[i]:
                 line.set_dashes(DASHES[i])
     panels[0].plot(t, total, color="black", linewidth=1.1, label="total")
@@ -30,7 +31,8 @@ def draw(run, path, dpi):
             if not np.any(run.constraints[:, i] > 0):
                 continue
             values = np.where(run.constraints[:, i] > 0, run.constraints[:, i], np.nan)
-            line, = panels[2].plot(t, values, color=COLOURS[i], linewidth=1.1, label=name)
+            few = np.count_nonzero(run.constraints[:, i]) < 30
+            line, = panels[2].plot(t, values, color=COLOURS[i], linewidth=1.1, label=name, marker="." if few else None)
             if DASHES[i]:
                 line.set_dashes(DASHES[i])
         panels[2].set_yscale("log")
