@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <iterator>
 
 #include "floe/dynamics/spatial_body.h"
+#include "floe/error.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -31,6 +34,11 @@ std::vector<std::shared_ptr<const dynamics::Term>> SpatialAssembly::terms_of(int
 std::vector<ModelSection> SpatialAssembly::sections(std::size_t p, Model& model) {
   const int b = plan_.probes[p][0].body;
   const Slot& slot = slots_[b];
+  if (slot.still)
+    throw InputError(fmt::format(
+        "{}.at: body {} has supports, in whose reduced and floating-frame models the forces of sections are not "
+        "computed; expected other joints instead of supports (fixed, revolute, spherical, ...), or formulation cfr",
+        plan_.scene.probes[p].where.text(), plan_.bodies[b].spec.name));
   std::vector<ModelSection> all;
   for (const ChosenSide& chosen : chosen_sides(plan_, p)) {
     const BeamSide& side = chosen.side;

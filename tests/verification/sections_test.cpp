@@ -411,3 +411,24 @@ probes:
     CHECK(std::abs(at["turn.T"].back()) == Approx(5).epsilon(2e-3));
   }
 }
+
+// The frame of such a body is fixed and has no equations, whose rows would be the forces in the section.
+TEST_CASE("sections of bodies with supports are refused but in cfr", "[verification]") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [2, 0, 0], elements: 4}}
+    section: {shape: rectangle, width: 0.05, height: 0.02, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 4}
+joints:
+  left: {type: support, between: [ground, beam.start], hold: [x, y, z, rx]}
+  right: {type: support, between: [ground, beam.end], hold: [y, z]}
+loads: {middle: {type: force, at: beam.middle, force: [0, 0, -8]}}
+motion: {end: 1, step: 0.1}
+probes: {moment: {at: beam.middle, quantity: section_moment}}
+)yaml";
+  for (const auto formulation : {Formulation::vm_md, Formulation::vm, Formulation::nlffr, Formulation::lffr})
+    CHECK_THROWS_WITH(rest(text, formulation), Contains("probes.moment") && Contains("body beam has supports"));
+  CHECK(std::abs(moment(rest(text, Formulation::cfr), "moment")[1]) == Approx(4).epsilon(1e-3));  // F L / 4
+}
