@@ -108,7 +108,8 @@ int in_session(const CommandLine& line, const std::string& command, const std::f
   char** arguments = pointers.data();
   setenv("OMPI_MCA_sharedfp", "^sm", 0);  // runs without mpirun share its file in /tmp: opening ours failed once
   if (SlepcInitialize(&count, &arguments, nullptr, nullptr)) return 1;
-  for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
+  for (const int number : {SIGTERM, SIGHUP, SIGPIPE})
+    std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
   const int code = guarded([&] {
     petsc::collect_errors();
     petsc::prepare_mumps();
