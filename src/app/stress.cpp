@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -244,6 +245,19 @@ bool lacks_torsion(const plan::Plan& plan, const plan::PlannedBody& body) {
          });
 }
 
+/// How many elements of beams and shells have no stresses, and how many there are. Collective.
+std::array<long long, 2> without_stresses(const plan::PlannedBody& body) {
+  std::array<long long, 2> counts{0, 0};
+  for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
+    const fem::Section& section = body.structure.sections[cell.part];
+    if (std::holds_alternative<fem::PointMass>(section) || std::holds_alternative<fem::NodeSpring>(section)) continue;
+    ++counts[1];
+    if (!body.points[cell.part].known()) ++counts[0];
+  }
+  petsc::check(MPI_Allreduce(MPI_IN_PLACE, counts.data(), 2, MPI_LONG_LONG, MPI_SUM, body.structure.mesh.comm));
+  return counts;
+}
+
 /// All flexible bodies whose elements are known. Collective.
 std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& plan, const Sources& sources,
                                const output::NodeMotion& motion, MPI_Comm comm, std::vector<std::string>& notes) {
@@ -269,11 +283,11 @@ std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& p
       notes.push_back(fmt::format(
           "body {}: von Mises' stress of beams whose sections are given by constants and fibres is without torsion",
           spec.name));
-    if (!(bodies.back().extremes.greatest.value >= 0))
-      notes.push_back(
-          fmt::format("body {}: its sections are given by their stiffness: forces and moments, no stresses "
-                      "(fibre or fibres of a section of beams)",
-                      spec.name));
+    if (const auto [without, elements] = without_stresses(of.bodies[static_cast<std::size_t>(number)]); without > 0)
+      notes.push_back(fmt::format(
+          "body {}: {} of its {} elements have forces and moments, no stresses, and the maximum is that of the others: "
+          "its sections are given by their stiffness (fibre or fibres of a section of beams)",
+          spec.name, without, elements));
   }
   return bodies;
 }

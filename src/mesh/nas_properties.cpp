@@ -63,6 +63,19 @@ void take_general(NasFields& card, NasBeamProperty& property, std::array<double,
     card.refuse_card("expects A greater than 0, I1, I2 and J not negative, and I12^2 less than I1 I2");
 }
 
+// C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of end A of PBEAM: y and z from the neutral axis. All blank: none are known.
+std::vector<Eigen::Vector2d> stress_points(NasFields& card) {
+  std::vector<Eigen::Vector2d> points;
+  bool given = false;
+  for (std::size_t i = 8; i < 16; i += 2) {
+    given = given || !card.card.blank(i) || !card.card.blank(i + 1);
+    const double y = card.real(i, "a coordinate of a stress point", 0);
+    points.emplace_back(y, card.real(i + 1, "a coordinate of a stress point", 0));
+  }
+  if (!given) points.clear();
+  return points;
+}
+
 }  // namespace
 
 void read_pbar(NasReader& r) {
@@ -73,6 +86,7 @@ void read_pbar(NasReader& r) {
                 r.card.real(5, "J", 0)});
   property.extra = r.card.real(6, "a mass per length (NSM)", 0);
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(16 + i, "a shear factor", 0));
+  property.section.fibres = stress_points(r.card);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 
@@ -132,6 +146,8 @@ void read_pbeam(NasReader& r) {
     return word == "YES" || word == "YESA" || word == "NO";
   };
   std::size_t next = station(8) ? 8 : 16;
+  std::vector<Eigen::Vector2d> points;
+  if (next == 16) points = stress_points(r.card);
   while (station(next)) {
     std::vector<std::optional<double>> values(at_a.size());
     for (int i = 0; i < 6; ++i)
@@ -141,6 +157,7 @@ void read_pbeam(NasReader& r) {
   }
   read_after_stations(r, next, property);
   taper.complete(r.card);
+  if (!taper.varies()) property.section.fibres = points;
   if (r.card.good() && taper.varies()) taper.divide(property, take), release_whole(r.card, property);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }

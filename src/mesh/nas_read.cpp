@@ -198,7 +198,9 @@ std::string nas_reason(const std::string& name) {
       {"GRID PS", "supports are joints of the scene"},
       {"GRDSET PS", "supports are joints of the scene"},
       {"PSHELL without MID2 (membranes)", "these shells have the bending stiffness of MID1 and the thickness"},
-      {"PSHELL MID3", "shells have no transverse shear deformation"},
+      {"PSHELL MID3",
+       "shells of first order have no transverse shear deformation, those of second order have 5/6 of G of their "
+       "material"},
       {"MAT1 G", "shells take E and nu, beams E and G, which differ by more than 1 % from E = 2 G (1 + nu)"},
       {"GE", "damping is that of the scene"},
       {"corner thicknesses", "a shell has their mean"},

@@ -92,6 +92,12 @@ double torsion_of_box1(Dimensions d) {
   return 4 * w * w * h * h / (w / d[2] + w / d[3] + h / d[4] + h / d[5]);
 }
 
+/// W = 2 A t of the thinnest wall.
+double modulus_of_box1(Dimensions d) {
+  const double w = d[0] - (d[4] + d[5]) / 2, h = d[1] - (d[2] + d[3]) / 2;
+  return 2 * w * h * *std::min_element(d.begin() + 2, d.begin() + 6);
+}
+
 /// A hexagon, DIM1 from its rectangle to its points; J = A^4 / (40 (I1 + I2)), as Saint-Venant's of compact sections.
 std::array<double, 5> hexagon(Dimensions d) {
   const double w = d[1] - 2 * d[0], h = d[2], area = h * (w + d[0]);
@@ -117,6 +123,28 @@ std::array<double, 5> constants_of(const Outline& outline) {
   }
   for (const auto& wall : outline.walls) j += wall.length * std::pow(wall.thickness, 3) / 3;
   return {area, i1, i2, std::abs(i12) > 1e-12 * std::sqrt(i1 * i2) ? i12 : 0, j};
+}
+
+/// Corners of the parts from the centre of the area: the extreme fibres are among them.
+std::vector<Eigen::Vector2d> corners_of(const Outline& outline) {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double area = 0;
+  for (const auto& p : outline.parts) {
+    area += p.height * p.width;
+    centre += p.height * p.width * Eigen::Vector2d(p.y, p.z);
+  }
+  std::vector<Eigen::Vector2d> corners;
+  for (const auto& p : outline.parts)
+    for (const double up : {-0.5, 0.5})
+      for (const double right : {-0.5, 0.5})
+        corners.push_back(Eigen::Vector2d(p.y + up * p.height, p.z + right * p.width) - centre / area);
+  return corners;
+}
+
+double thickest(const Outline& outline) {
+  double t = 0;
+  for (const auto& wall : outline.walls) t = std::max(t, wall.thickness);
+  return t;
 }
 
 struct Shape {
@@ -186,6 +214,8 @@ void take_outline(NasFields& card, const Shape& shape, Dimensions d, NasBeamProp
   std::array<double, 5> constants = constants_of(outline);
   if (outline.walls.empty()) constants[4] = torsion_of_box1(d);
   take_constants(constants, property);
+  property.section.fibres = corners_of(outline);
+  property.section.torsion_modulus = outline.walls.empty() ? modulus_of_box1(d) : constants[4] / thickest(outline);
 }
 
 }  // namespace

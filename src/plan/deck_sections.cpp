@@ -194,14 +194,16 @@ Eigen::Vector2d extent_of(const mesh::BeamSection& section) {
   }
 }
 
-/// Extreme fibres; of an ellipse or a general profile none are known.
+/// Extreme fibres; of an ellipse, and of a general profile without stress points, none are known.
 fem::StressPoints points_of(const mesh::BeamSection& section, double E) {
   const std::vector<double>& d = section.dimensions;
   fem::StressPoints points;
   points.E = E;
   const bool round = section.profile == mesh::Profile::pipe ||
                      (section.profile == mesh::Profile::circle && (d.size() == 1 || d[0] == d[1]));
-  if (round) {
+  if (!section.fibres.empty()) {
+    points.fibres = section.fibres;
+  } else if (round) {
     points.radius = d[0];
   } else if (section.profile != mesh::Profile::general && section.profile != mesh::Profile::circle) {
     Eigen::Vector2d size = extent_of(section);
@@ -246,7 +248,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
       if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;
     deck.parts[section.number] = beam;
     deck.points[section.number] = points_of(section, material.E);
-    deck.points[section.number].W = given.W;
+    deck.points[section.number].W = section.torsion_modulus > 0 ? section.torsion_modulus : given.W;
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), size_of(section)});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());

@@ -99,6 +99,37 @@ def beams(folder):
         close(found["section_force"], np.tile([100, 2, 3], (12, 1)), 0.01, f"{formulation} forces")
 
 
+def beams_of_decks(folder):
+    """M c / I of the shapes of PBARL and of the stress points of PBAR, both sides of a tee (20 x 40 x 6 x 6 mm) under a force
+    of 10 N at 1 m along its web; elements without either are counted, and the maximum is that of the others."""
+    width, height, t = 0.02, 0.04, 0.006
+    areas, arms = np.array([width * t, (height - t) * t]), np.array([t / 2, (height + t) / 2])
+    centre = areas @ arms / areas.sum()  # from the top
+    inertia = width * t**3 / 12 + t * (height - t)**3 / 12 + areas @ (arms - centre)**2
+    grids = "".join(f"GRID,{i + 1},,{i / 10},0.,0.\nGRID,{i + 101},,{i / 10},1.,0.\n" for i in range(11))
+    cards = {"tee": "PBARL,6,1,,T\n,.02,.04,.006,.006\n",
+             "points": f"PBAR,6,1,{areas.sum()},{inertia},1.-8,1.-9,,,+\n+,{centre},0.,{centre - height},0.\n"}
+    for name, card in cards.items():
+        bars = "".join(f"CBAR,{i},6,{i},{i + 1},0.,1.,0.\nCBAR,{i + 100},7,{i + 100},{i + 101},0.,1.,0.\n" for i in range(1, 11))
+        (folder / "deck.bdf").write_text("BEGIN BULK\n" + grids + "GRID,99,,0.,.5,0.\nCBAR,98,6,1,99,1.,0.,0.\nCBAR,99,6,99,101,1.,0.,0.\n" +
+                                         bars + card + "PBAR,7,1,1.-4,1.-8,1.-8,1.-9\nMAT1,1,7.+10,,.3,2700.\nENDDATA\n")
+        path, said = recovered(FLOE, folder, """
+bodies:
+  b: {mesh: {file: {path: deck.bdf}}, reduction: {modes: 4}}
+joints:
+  root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}
+loads:
+  tip: {type: force, at: {body: b, node: [1, 0, 0]}, force: [0, 10, 0]}
+motion: {end: 1, step: 0.1}
+""", formulation="lffr")
+        found = Fields(path, "b")
+        loaded = (found.x[:, 1] < 1e-9) & (found.x[:, 0] > 1e-9)
+        arm = 1 - (found.x[loaded, 0] - 0.05)  # of the start of the element
+        close(found["stress_max"][loaded], 10 * arm * (height - centre) / inertia, 1e-3, f"{name}: web, which is bent most")
+        close(found["stress_min"][loaded], -10 * arm * centre / inertia, 1e-3, f"{name}: flange")
+        assert "10 of its 22 elements have forces and moments, no stresses" in said, said
+
+
 def linear_beam(folder):
     """A linear motion has linear stresses: M / W, no axial force, whatever the deflection (here 8 % of the length); also of a
     reduced body with a linear elastic force."""
@@ -371,7 +402,7 @@ def springs_are_no_elements(folder):
 
 
 def main():
-    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, linear_beam, round_bars, large_rotations, reduced_against_full_order,
+    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, beams_of_decks, linear_beam, round_bars, large_rotations, reduced_against_full_order,
              corrected_from_the_start, body_from_a_file,
              the_same_on_ranks, singular_places, springs_are_no_elements, refusals]
     if shutil.which("ccx"):

@@ -85,6 +85,8 @@ struct BeamSection {
   std::optional<double> density;          // likewise; none where the deck gives none
   unsigned releases = 0;                  // bits: dofs of the ends without force, as fem::BeamReleases
   unsigned alone = 0;                     // bits: ends of a rod at nodes that rods alone hold
+  std::vector<Eigen::Vector2d> fibres;    // of Profile::general, along 1 and 2 from the centre; empty: not known
+  double torsion_modulus = 0;             // likewise, fem::SectionShape::W
 };
 
 /// A linear spring between two nodes, about the point that divides the way from the first to the second.
