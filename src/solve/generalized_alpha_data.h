@@ -140,7 +140,8 @@ PetscErrorCode jacobian_of_beginning(TS ts, PetscReal shift_v, Vec A);
 /// What is removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
 PetscErrorCode resolve_accelerations(TS ts);
 /// A_0 of the start of the motion without what the step does not resolve, each motion for itself; a load that balances
-/// another force has no part in A_0. J of zero accelerations is in the solver. Collective.
+/// another force has no part in A_0. A_0 stays where the forces have no curvature along the velocity (a stop within a
+/// tenth of the step) or J is nearly singular. J of zero rates is in the solver. Collective.
 PetscErrorCode resolve_start(TS ts);
 /// A' of a start without what the step does not resolve; J is in the solver.
 PetscErrorCode resolve_jerk(TS ts);

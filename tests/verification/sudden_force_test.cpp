@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include "space_twin.h"
 #include "spatial_scenes.h"
 
 using namespace floe;
@@ -172,6 +173,29 @@ probes:
       if (before > 0) CHECK(before / drive > 3);
       before = drive;
     }
+  }
+}
+
+// A stop lies within the tenth of a step over which the start measures how forces change: 1e7 N/m over 1e-5 m, which
+// the mass leaves, and 1e10 N/m ahead of it. It once left with 2.6 J of its 1 J, and met the other with 1e5 J.
+TEST_CASE("the start beside a stop brings no energy") {
+  for (const char* stop : {"{lower: 1e-6, upper: 1, stiffness: 1e7, width: 1e-5}",
+                           "{lower: -1, upper: 5e-5, stiffness: 1e10, width: 1e-5}"}) {
+    INFO(stop);
+    const bool leaves = std::string(stop).find("lower") != std::string::npos;
+    const History history = move(fill(R"yaml(
+bodies:
+  mass: {rigid: {mass: 2, centre: [0, 0], inertia: 1}, initial: {velocity: [1, 0]}}
+joints:
+  slide: {type: prismatic, between: [ground, mass.centre], axis: [1, 0], limits: $stop}
+  spring: {type: spring, between: [{body: ground, node: [-1, 0]}, mass.centre], stiffness: $k, length: 1}
+motion: {end: 0.02, step: 1e-3}
+probes: {x: {at: mass.centre}}
+)yaml",
+                                      {{"stop", stop}, {"k", leaves ? "1" : "1e6"}}),
+                                 Formulation::cfr);
+    for (const dynamics::Energy& energy : history.energy) CHECK(total(energy) < 1.01);
+    CHECK(total(history.energy.back()) > 0.9);
   }
 }
 
