@@ -182,7 +182,7 @@ TEST_CASE("the start beside a stop brings no energy") {
   for (const char* stop : {"{lower: 1e-6, upper: 1, stiffness: 1e7, width: 1e-5}",
                            "{lower: -1, upper: 5e-5, stiffness: 1e10, width: 1e-5}"}) {
     INFO(stop);
-    const bool leaves = std::string(stop).find("lower") != std::string::npos;
+    const bool leaves = std::string(stop).find("lower: 1e-6") != std::string::npos;
     const History history = move(fill(R"yaml(
 bodies:
   mass: {rigid: {mass: 2, centre: [0, 0], inertia: 1}, initial: {velocity: [1, 0]}}
@@ -195,7 +195,7 @@ probes: {x: {at: mass.centre}}
                                       {{"stop", stop}, {"k", leaves ? "1" : "1e6"}}),
                                  Formulation::cfr);
     for (const dynamics::Energy& energy : history.energy) CHECK(total(energy) < 1.01);
-    CHECK(total(history.energy.back()) > 0.9);
+    if (leaves) CHECK(total(history.energy.back()) > 0.99);
   }
 }
 
