@@ -285,9 +285,12 @@ std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& p
           spec.name));
     if (const auto [without, elements] = without_stresses(of.bodies[static_cast<std::size_t>(number)]); without > 0)
       notes.push_back(fmt::format(
-          "body {}: {} of its {} elements have forces and moments, no stresses, and the maximum is that of the others: "
-          "its sections are given by their stiffness (fibre or fibres of a section of beams)",
-          spec.name, without, elements));
+          "body {}: {} have forces and moments, but no stresses: their sections are given by their stiffness{}; "
+          "expected fibre or fibres of a section of beams, or stress points C to F of PBAR or PBEAM",
+          spec.name,
+          without < elements ? fmt::format("{} of {} elements", without, elements)
+                             : fmt::format("all {} elements", elements),
+          without < elements ? " (the maximum is that of the others)" : ""));
   }
   return bodies;
 }

@@ -36,8 +36,8 @@ std::vector<ModelSection> SpatialAssembly::sections(std::size_t p, Model& model)
   const Slot& slot = slots_[b];
   if (slot.still)
     throw InputError(fmt::format(
-        "{}.at: body {} has supports, in whose reduced and floating-frame models the forces of sections are not "
-        "computed; expected other joints instead of supports (fixed, revolute, spherical, ...), or formulation cfr",
+        "{}.at: section forces of body {} are not available in reduced and floating-frame models, because it has "
+        "supports; expected other joints instead of supports (fixed, revolute, spherical, ...), or formulation cfr",
         plan_.scene.probes[p].where.text(), plan_.bodies[b].spec.name));
   std::vector<ModelSection> all;
   for (const ChosenSide& chosen : chosen_sides(plan_, p)) {

@@ -63,16 +63,16 @@ void take_general(NasFields& card, NasBeamProperty& property, std::array<double,
     card.refuse_card("expects A greater than 0, I1, I2 and J not negative, and I12^2 less than I1 I2");
 }
 
-// C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of end A of PBEAM: y and z from the neutral axis. All blank: none are known.
-std::vector<Eigen::Vector2d> stress_points(NasFields& card) {
+// C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of the stations of PBEAM, from a field on: y and z from the neutral axis. All
+// zero, which is also what blank fields are: none are known.
+std::vector<Eigen::Vector2d> stress_points(NasFields& card, std::size_t first) {
   std::vector<Eigen::Vector2d> points;
-  bool given = false;
-  for (std::size_t i = 8; i < 16; i += 2) {
-    given = given || !card.card.blank(i) || !card.card.blank(i + 1);
+  for (std::size_t i = first; i < first + 8; i += 2) {
     const double y = card.real(i, "a coordinate of a stress point", 0);
     points.emplace_back(y, card.real(i + 1, "a coordinate of a stress point", 0));
   }
-  if (!given) points.clear();
+  if (std::all_of(points.begin(), points.end(), [](const Eigen::Vector2d& point) { return point.isZero(0); }))
+    return {};
   return points;
 }
 
@@ -86,7 +86,7 @@ void read_pbar(NasReader& r) {
                 r.card.real(5, "J", 0)});
   property.extra = r.card.real(6, "a mass per length (NSM)", 0);
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(16 + i, "a shear factor", 0));
-  property.section.fibres = stress_points(r.card);
+  property.section.fibres = stress_points(r.card, 8);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 
@@ -147,13 +147,18 @@ void read_pbeam(NasReader& r) {
   };
   std::size_t next = station(8) ? 8 : 16;
   std::vector<Eigen::Vector2d> points;
-  if (next == 16) points = stress_points(r.card);
+  const auto take_points = [&](std::size_t first) {
+    for (const Eigen::Vector2d& point : stress_points(r.card, first)) points.push_back(point);
+  };
+  if (next == 16) take_points(8);
   while (station(next)) {
     std::vector<std::optional<double>> values(at_a.size());
     for (int i = 0; i < 6; ++i)
       if (!card.blank(next + 2 + i)) values[i] = r.card.real(next + 2 + i, names[i]);
     taper.add(r.card.real(next + 1, "a position along the length (X/XB)", 1), values);
-    next += upper(card.text(next)) == "YES" ? 16 : 8;
+    const bool with_points = upper(card.text(next)) == "YES";
+    if (with_points) take_points(next + 8);
+    next += with_points ? 16 : 8;
   }
   read_after_stations(r, next, property);
   taper.complete(r.card);

@@ -107,16 +107,25 @@ std::array<double, 5> hexagon(Dimensions d) {
   return {area, i1, i2, 0, std::pow(area, 4) / (40 * (i1 + i2))};
 }
 
+/// y and z.
+Eigen::Vector2d centre_of(const Outline& outline) {
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  double area = 0;
+  for (const auto& p : outline.parts) {
+    area += p.height * p.width;
+    moment += p.height * p.width * Eigen::Vector2d(p.y, p.z);
+  }
+  return moment / area;
+}
+
 /// A, I1, I2, I12 about the centre of the area, and J of thin walls, sum(s t^3) / 3.
 std::array<double, 5> constants_of(const Outline& outline) {
-  double area = 0, y = 0, z = 0, i1 = 0, i2 = 0, i12 = 0, j = 0;
+  const Eigen::Vector2d centre = centre_of(outline);
+  const double y = centre[0], z = centre[1];
+  double area = 0, i1 = 0, i2 = 0, i12 = 0, j = 0;
   for (const auto& p : outline.parts) {
     const double a = p.height * p.width;
-    area += a, y += a * p.y, z += a * p.z;
-  }
-  y /= area, z /= area;
-  for (const auto& p : outline.parts) {
-    const double a = p.height * p.width;
+    area += a;
     i1 += a * (p.height * p.height / 12 + (p.y - y) * (p.y - y));
     i2 += a * (p.width * p.width / 12 + (p.z - z) * (p.z - z));
     i12 += a * (p.y - y) * (p.z - z);
@@ -127,17 +136,12 @@ std::array<double, 5> constants_of(const Outline& outline) {
 
 /// Corners of the parts from the centre of the area: the extreme fibres are among them.
 std::vector<Eigen::Vector2d> corners_of(const Outline& outline) {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double area = 0;
-  for (const auto& p : outline.parts) {
-    area += p.height * p.width;
-    centre += p.height * p.width * Eigen::Vector2d(p.y, p.z);
-  }
+  const Eigen::Vector2d centre = centre_of(outline);
   std::vector<Eigen::Vector2d> corners;
   for (const auto& p : outline.parts)
     for (const double up : {-0.5, 0.5})
       for (const double right : {-0.5, 0.5})
-        corners.push_back(Eigen::Vector2d(p.y + up * p.height, p.z + right * p.width) - centre / area);
+        corners.push_back(Eigen::Vector2d(p.y + up * p.height, p.z + right * p.width) - centre);
   return corners;
 }
 
@@ -250,6 +254,8 @@ void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasB
   } else if (name == "HEXA") {
     if (!(2 * d[0] < d[1])) return card.refuse(9, "expects DIM1 less than half of DIM2");
     take_constants(hexagon(d), property);
+    const double y = d[2] / 2, z = d[1] / 2 - d[0];
+    property.section.fibres = {{y, z}, {y, -z}, {-y, z}, {-y, -z}, {0, d[1] / 2}, {0, -d[1] / 2}};
   } else if (!shape.outline) {
     take_round(card, name, d, property);
   } else {

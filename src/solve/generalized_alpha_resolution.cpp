@@ -21,15 +21,25 @@ PetscErrorCode multiply_inertia(TS ts, PetscReal e, Vec x, Vec y) {
   PetscFunctionReturn(0);
 }
 
+// x <- J^-1 rows, scaled rows, of the dynamic unknowns.
+PetscErrorCode solve_rows(TS ts, Vec rows, Vec x, KSPConvergedReason* reason) {
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(solve_scaled(ts, rows, x));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscCall(VecPointwiseMult(x, x, generalized_alpha_data(ts)->dynamic));
+  PetscFunctionReturn(0);
+}
+
 // x <- J^-1 (M shift_a x), with the constraint rows C_q x. The operator acts on motions, not on coordinates: a frame
 // that rotates and elastic coordinates that rotate it back are one motion, whatever the stiffness of either coordinate
 // by itself.
 PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  KSP ksp;
 
   PetscFunctionBegin;
-  PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(multiply_inertia(ts, e, x, data->work_F));
   PetscCall(multiply_scaled(ts, x, data->work_V));
   {
@@ -38,9 +48,7 @@ PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* re
     for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
       rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a * rows[i] : seen[i];
   }
-  PetscCall(solve_scaled(ts, data->work_F, x));
-  PetscCall(KSPGetConvergedReason(ksp, reason));
-  PetscCall(VecPointwiseMult(x, x, data->dynamic));
+  PetscCall(solve_rows(ts, data->work_F, x, reason));
   PetscFunctionReturn(0);
 }
 
@@ -62,8 +70,8 @@ PetscErrorCode jump_of_accelerations(GeneralizedAlpha* data, Vec x) {
   PetscFunctionReturn(0);
 }
 
-// x <- R x, R x = J^-1 (M shift_a x). It can only become less, but for round-off of *whole, unless J is nearly
-// singular: then *good is PETSC_FALSE. *whole becomes the norm of x as it was, if that is more.
+// x <- R x, R x = J^-1 (M shift_a x). Where this increases the norm, by more than round-off of *whole, J is nearly
+// singular, and *good is PETSC_FALSE. *whole becomes the norm that x had, if that is more.
 PetscErrorCode resolve_once(TS ts, PetscReal e, Vec x, PetscReal* whole, PetscBool* good) {
   KSPConvergedReason reason;
   PetscReal before, after;
@@ -72,7 +80,7 @@ PetscErrorCode resolve_once(TS ts, PetscReal e, Vec x, PetscReal* whole, PetscBo
   PetscCall(inertia_norm(ts, e, x, &before));
   PetscCall(leave_out_stiff(ts, e, x, &reason));
   PetscCall(inertia_norm(ts, e, x, &after));
-  PetscCall(PetscInfo(ts, "Start: of %g the step resolves %g\n", (double)before, (double)after));
+  PetscCall(PetscInfo(ts, "Start: norm %g, of what the step resolves %g\n", (double)before, (double)after));
   *good = reason >= 0 && after <= 1.5 * before + 1e-6 * *whole ? PETSC_TRUE : PETSC_FALSE;
   *whole = PetscMax(*whole, before);
   PetscFunctionReturn(0);
@@ -109,7 +117,6 @@ PetscErrorCode forces_along(TS ts, PetscReal e, Vec v, Vec y) {
 // x <- -J^-1 F_qq v v of the forces, a central difference over e: (1 - R) a, where K a + F_qq v v = 0.
 PetscErrorCode curved(TS ts, PetscReal e, Vec v, Vec x, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  KSP ksp;
 
   PetscFunctionBegin;
   PetscCall(forces_along(ts, 0, v, x));
@@ -121,16 +128,13 @@ PetscErrorCode curved(TS ts, PetscReal e, Vec v, Vec x, KSPConvergedReason* reas
   PetscCall(VecScale(x, 1 / (e * e)));
   PetscCall(VecPointwiseMult(x, x, data->dynamic));
   PetscCall(VecPointwiseMult(data->work_F, x, data->scale));
-  PetscCall(SNESGetKSP(ts->snes, &ksp));
-  PetscCall(solve_scaled(ts, data->work_F, x));
-  PetscCall(KSPGetConvergedReason(ksp, reason));
-  PetscCall(VecPointwiseMult(x, x, data->dynamic));
+  PetscCall(solve_rows(ts, data->work_F, x, reason));
   PetscFunctionReturn(0);
 }
 
-// The same over h/10, into x, which overwrites U1. Where it is none of curvature, *good is PETSC_FALSE: accelerations
-// along curved paths change v by less than v in a step, and over a quarter of the distance they are the same but where
-// a stop or a gap lies within it.
+// The same over h/10, into x; overwrites U1. *good is PETSC_FALSE where the forces are not smooth along v: where a stop
+// or a gap lies within that distance, the difference over a quarter of it is another one. Centripetal accelerations
+// change v by less than v in a step.
 PetscErrorCode acceleration_of_curvature(TS ts, Vec v, Vec x, PetscBool* good) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason first, second;
@@ -143,7 +147,7 @@ PetscErrorCode acceleration_of_curvature(TS ts, Vec v, Vec x, PetscBool* good) {
   PetscCall(inertia_norm(ts, 1 / data->h, v, &speed));
   PetscCall(inertia_norm(ts, 1, x, &size));
   PetscCall(inertia_norm(ts, 1, data->U1, &difference));
-  PetscCall(PetscInfo(ts, "Start: speed %g, along curved paths in a step %g, of which %g differ over a quarter of it\n",
+  PetscCall(PetscInfo(ts, "Start: norm of the velocity %g, its change by curvature %g, uncertain by %g\n",
                       (double)speed, (double)(data->h * size), (double)(data->h * difference)));
   const bool bounded = data->h * size <= speed && data->h * difference <= 0.05 * speed;
   *good = first >= 0 && second >= 0 && bounded ? PETSC_TRUE : PETSC_FALSE;

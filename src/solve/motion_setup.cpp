@@ -80,10 +80,10 @@ PetscErrorCode check_step(TS ts, PetscReal t, Vec U, PetscBool* accept) {
       *accept = PETSC_FALSE;
       if (c->adaptive) return;
       throw RunError(fmt::format(
-          "at t = {:.6g} a node has rotated by {:.3g} rad in a step (limit 3.14, half a revolution); take shorter "
-          "steps, "
-          "or a load that grows within some steps: a sudden moment on a node rotates it the more, the smaller its "
-          "elements",
+          "at t = {:.6g} the solution of the step rotates a node by {:.3g} rad (limit 3.14, half a revolution); take "
+          "shorter steps or a tolerance, or let a sudden load grow within some steps: a moment on a node rotates it "
+          "the "
+          "more, the smaller its elements",
           t, rotation));
     }
     const System::FailedConstraint failed_constraint = c->system.failed_constraint(t, U);

@@ -202,8 +202,17 @@ def two_that_write_one_file(floe, ranks, folder):
         assert (folder / name).exists() and not (folder / f".{name}.lock").exists()
 
 
+def a_reader_that_has_gone(floe, ranks, folder):
+    """Output that nobody reads to its end, as by `floe schema | head`, ends the process without a word."""
+    process = subprocess.Popen([str(floe), "schema"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.close()
+    said = process.stderr.read().decode()
+    assert process.wait(TIME_LIMIT) == -signal.SIGPIPE and said == "", (process.returncode, said)
+
+
 CASES = [killed_in_estimate_of_run, killed_in_estimate_of_static, a_living_run_is_left_alone, a_killed_run_holds_nothing,
-         two_that_begin_at_once, two_that_write_one_file]
+         two_that_begin_at_once, two_that_write_one_file,
+         a_reader_that_has_gone]
 
 
 def main():

@@ -150,6 +150,12 @@ def numbers_of_the_files(folder):
     parts = {line.get_label(): line.get_ydata() for line in panels[0].lines}
     assert np.allclose(parts["total"], parts["kinetic"] + parts["elastic"]) and "potential" not in parts  # no gravity
     assert np.array_equal(parts["kinetic"], run.energy[:, 0]) and np.allclose(panels[1].lines[0].get_ydata(), parts["total"] - parts["total"][0])
+    raised = Run(str(folder / "crank"))
+    raised.load()
+    raised.energy = raised.energy + [0, 0, 7]  # relative to another origin
+    raised.load = lambda: None
+    lines = {line.get_label(): line.get_ydata() for line in kept(energy, energy.draw, raised, "", 100).axes[0].lines}
+    assert np.allclose(lines["total"], parts["total"]), "the potential is that from the start on"
     summary = json.loads((folder / "crank/summary.json").read_text())
     drawn_rates = next(line for line in panels[2].lines if line.get_label() == "velocities").get_ydata()
     assert np.isclose(np.nanmax(drawn_rates), summary["constraints"]["greatest_velocity_violation"])

@@ -127,7 +127,7 @@ motion: {end: 1, step: 0.1}
         arm = 1 - (found.x[loaded, 0] - 0.05)  # of the start of the element
         close(found["stress_max"][loaded], 10 * arm * (height - centre) / inertia, 1e-3, f"{name}: web, which is bent most")
         close(found["stress_min"][loaded], -10 * arm * centre / inertia, 1e-3, f"{name}: flange")
-        assert "10 of its 22 elements have forces and moments, no stresses" in said, said
+        assert "10 of 22 elements have forces and moments, but no stresses" in said and "the maximum is that of the others" in said, said
 
 
 def linear_beam(folder):
@@ -378,7 +378,7 @@ def refusals(folder):
     (folder / "scene.yaml").write_text(PLANAR.replace(", fibre: 0.02", ""))
     floe(FLOE, folder, "run", "scene.yaml", "-o", "out", "--force", "--no-estimate")
     said = floe(FLOE, folder, "stress", "out", "--force")
-    assert "its sections are given by their stiffness" in said, said
+    assert "all 10 elements have forces and moments, but no stresses" in said and "others" not in said, said
 
 
 def springs_are_no_elements(folder):

@@ -45,16 +45,18 @@ TEST_CASE("estimate: cantilever of the paper") {
                       {Formulation::vm, Formulation::vm_md});
 }
 
-// nlffr in the same steps: errors of 0.0021 % (tip) and 0.029 % (edge). Below 0.1 % the estimate need not find all.
+// nlffr in the same steps: errors of 0.054 % (tip) and 0.75 % (edge).
 TEST_CASE("estimate: a strip of shells released from a bent shape, to the end of its motion") {
-  const Estimated reduced = move_and_estimate(released_strip, Formulation::vm_md);
+  std::string text = released_strip;
+  text.insert(text.find("joints:"), "    reduction: {modes: 2}\n");
+  const Estimated reduced = move_and_estimate(text, Formulation::vm_md);
   REQUIRE(reduced.estimate.none == "");
   REQUIRE(reduced.estimate.probes.size() == 2);
   CHECK(reduced.estimate.t.back() == Approx(0.4));
-  CHECK(reduced.estimate.probes[0] > 0.2 * 0.000021);
-  CHECK(reduced.estimate.probes[0] < 3 * 0.000021);
-  CHECK(reduced.estimate.probes[1] > 0.2 * 0.00029);
-  CHECK(reduced.estimate.probes[1] < 3 * 0.00029);
+  CHECK(reduced.estimate.probes[0] > 0.3 * 0.00054);
+  CHECK(reduced.estimate.probes[0] < 3 * 0.00054);
+  CHECK(reduced.estimate.probes[1] > 0.3 * 0.0075);
+  CHECK(reduced.estimate.probes[1] < 3 * 0.0075);
 }
 
 TEST_CASE("estimate: pendulum, arm, slider-crank") {

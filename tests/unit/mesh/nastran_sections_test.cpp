@@ -6,26 +6,28 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("shapes of PBARL have the constants of their outlines") {
   struct Case {
-    const char* card;  // shape and dimensions
+    const char* card;      // shape and dimensions
+    double height, width;  // of the outline, whose corners are the fibres
     double area, i1, i2, i12, j;
   };
   // A, I1, I2, I12 by integrals along the outline (Green's theorem); J of thin walls by hand, to the middle of the
   // walls.
-  const Case cases[] = {{"T\n,40.,30.,3.,2.", 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
-                        {"T2\n,40.,30.,3.,2.", 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
-                        {"T1\n,30.,20.,3.,2.", 130, 6763.333333, 5063.141026, 0, (30 * 27 + 21.5 * 8) / 3},
-                        {"CHAN\n,20.,30.,2.,3.", 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
-                        {"CHAN1\n,18.,2.,24.,30.", 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
-                        {"CHAN2\n,2.,3.,20.,30.", 158, 5578.584388, 20100.66667, 0, (28 * 27 + 2 * 18.5 * 8) / 3},
-                        {"CROSS\n,20.,3.,30.,2.", 130, 6763.333333, 2090.833333, 0, (30 * 27 + 20 * 8) / 3.},
-                        {"H\n,20.,4.,30.,3.", 180, 9045, 16560, 0, (22 * 27 + 60 * 8) / 3.},
-                        {"I\n,40.,20.,30.,2.,3.,4.", 246, 61421.57317, 11022, 0, (20 * 27 + 36.5 * 8 + 30 * 64) / 3},
-                        {"I1\n,18.,2.,24.,30.", 168, 24264, 4016, 0, (2 * 20 * 27 + 27 * 8) / 3.},
-                        {"Z\n,20.,2.,24.,30.", 180, 26460, 18540, -17820, (27 * 8 + 2 * 21 * 27) / 3.},
-                        {"HAT\n,30.,2.,25.,10.", 202, 25095.45215, 30036.83333, 0, 8 * (23 + 2 * 28 + 2 * 11) / 3.},
-                        {"BOX1\n,40.,30.,2.,3.,4.,5.", 425, 49088.35784, 97388.35784, 547.0588235,
-                         4 * 35.5 * 35.5 * 27.5 * 27.5 / (35.5 / 2 + 35.5 / 3 + 27.5 / 4 + 27.5 / 5)},
-                        {"HEXA\n,10.,40.,30.", 900, 56250, 75000, 0, 900. * 900 * 900 * 900 / (40 * 131250.)}};
+  const Case cases[] = {
+      {"T\n,40.,30.,3.,2.", 30, 40, 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
+      {"T2\n,40.,30.,3.,2.", 30, 40, 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
+      {"T1\n,30.,20.,3.,2.", 30, 23, 130, 6763.333333, 5063.141026, 0, (30 * 27 + 21.5 * 8) / 3},
+      {"CHAN\n,20.,30.,2.,3.", 30, 20, 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
+      {"CHAN1\n,18.,2.,24.,30.", 30, 20, 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
+      {"CHAN2\n,2.,3.,20.,30.", 20, 30, 158, 5578.584388, 20100.66667, 0, (28 * 27 + 2 * 18.5 * 8) / 3},
+      {"CROSS\n,20.,3.,30.,2.", 30, 23, 130, 6763.333333, 2090.833333, 0, (30 * 27 + 20 * 8) / 3.},
+      {"H\n,20.,4.,30.,3.", 30, 24, 180, 9045, 16560, 0, (22 * 27 + 60 * 8) / 3.},
+      {"I\n,40.,20.,30.,2.,3.,4.", 40, 30, 246, 61421.57317, 11022, 0, (20 * 27 + 36.5 * 8 + 30 * 64) / 3},
+      {"I1\n,18.,2.,24.,30.", 30, 20, 168, 24264, 4016, 0, (2 * 20 * 27 + 27 * 8) / 3.},
+      {"Z\n,20.,2.,24.,30.", 30, 42, 180, 26460, 18540, -17820, (27 * 8 + 2 * 21 * 27) / 3.},
+      {"HAT\n,30.,2.,25.,10.", 30, 45, 202, 25095.45215, 30036.83333, 0, 8 * (23 + 2 * 28 + 2 * 11) / 3.},
+      {"BOX1\n,40.,30.,2.,3.,4.,5.", 30, 40, 425, 49088.35784, 97388.35784, 547.0588235,
+       4 * 35.5 * 35.5 * 27.5 * 27.5 / (35.5 / 2 + 35.5 / 3 + 27.5 / 4 + 27.5 / 5)},
+      {"HEXA\n,10.,40.,30.", 30, 40, 900, 56250, 75000, 0, 900. * 900 * 900 * 900 / (40 * 131250.)}};
   for (const auto& c : cases) {
     INFO(c.card);
     const auto file = read("shape.bdf", with_beam(std::string("PBARL,5,1,,") + c.card + "\n"));
@@ -35,6 +37,10 @@ TEST_CASE("shapes of PBARL have the constants of their outlines") {
     const double given[] = {c.area, c.i2, c.i12, c.i1, c.j};
     for (int i = 0; i < 5; ++i) CHECK(section.dimensions.at(i) == Approx(given[i]).epsilon(1e-8).margin(1e-6));
     CHECK(section.density.value() == Approx(7800));
+    Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = low;
+    for (const Eigen::Vector2d& fibre : section.fibres) low = low.cwiseMin(fibre), high = high.cwiseMax(fibre);
+    CHECK(high[0] - low[0] == Approx(c.height));
+    CHECK(high[1] - low[1] == Approx(c.width));
   }
   CHECK_THAT(said(with_beam("PBEAML,5,1,,T\n,40.,30.,3.,2.\n")), Contains("line of shear centres"));
   CHECK_THAT(said(with_beam("PBARL,5,1,,T\n,40.,3.,3.,2.\n")), Contains("expects walls of T that are thinner"));
@@ -135,4 +141,22 @@ TEST_CASE("cards replicate the one before") {
       {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=0\n", "expects = or =n"},
       {square + "CONM2,70,1,,1.\n,1.,,1.,,,1.\n=,*1,==\n", "CONM2: replication of cards with continuations"}};
   for (const auto& [text, message] : wrong) CHECK_THAT(said(text), Contains(message));
+}
+
+// W of open thin walls is J over the thickest, of BOX1 twice its area by the thinnest.
+TEST_CASE("stress points of PBAR and PBEAM are fibres, and shapes have a torsion modulus") {
+  const auto section = [](const std::string& card) {
+    return read("points.bdf", with_beam(card)).deck.beam_sections.at(0);
+  };
+  CHECK(section("PBARL,5,1,,T\n,40.,30.,3.,2.\n").torsion_modulus == Approx((40 * 27 + 28.5 * 8) / 9));
+  CHECK(section("PBARL,5,1,,BOX1\n,40.,30.,2.,3.,4.,5.\n").torsion_modulus == Approx(2 * 35.5 * 27.5 * 2));
+  const auto bar = section("PBAR,5,1,100.,900.,800.,700.\n,5.,1.,-5.,2.\n").fibres;
+  REQUIRE(bar.size() == 4);
+  CHECK(bar[1] == Eigen::Vector2d(-5, 2));
+  CHECK(section("PBAR,5,1,100.,900.,800.,700.\n,0.,0.,0.,0.,0.,0.,0.,0.\n").fibres.empty());
+  CHECK(section("PBAR,5,1,100.,900.,800.,700.\n").fibres.empty());
+  const auto beam = section("PBEAM,5,1,100.,900.,800.,0.,700.\n,5.,1.\n,YES,1.\n,8.,2.\n").fibres;
+  REQUIRE(beam.size() == 8);  // of both ends
+  CHECK(beam[0] == Eigen::Vector2d(5, 1));
+  CHECK(beam[4] == Eigen::Vector2d(8, 2));
 }
