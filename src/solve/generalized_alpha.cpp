@@ -154,6 +154,12 @@ PetscErrorCode get_event_error(TS ts, PetscReal* error) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode set_forces_jump(TS ts) {
+  PetscFunctionBegin;
+  generalized_alpha_data(ts)->forces_jump = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
   PetscReal rho = generalized_alpha_data(ts)->rho;
   PetscBool set;
@@ -185,6 +191,7 @@ constexpr const char* set_multipliers_name = "TSGeneralizedAlphaSetMultipliers_C
 constexpr const char* set_radius_name = "TSGeneralizedAlphaSetRadius_C";
 constexpr const char* set_start_name = "TSGeneralizedAlphaSetStart_C";
 constexpr const char* set_rotations_name = "TSGeneralizedAlphaSetRotations_C";
+constexpr const char* set_forces_jump_name = "TSGeneralizedAlphaSetForcesJump_C";
 constexpr const char* interpolate_name = "TSGeneralizedAlphaInterpolate_C";
 constexpr const char* get_acceleration_name = "TSGeneralizedAlphaGetAcceleration_C";
 constexpr const char* get_event_error_name = "TSGeneralizedAlphaGetEventError_C";
@@ -197,8 +204,8 @@ PetscErrorCode destroy(TS ts) {
   if (ts->snes) PetscCall(SNESSetConvergenceTest(ts->snes, SNESConvergedDefault, nullptr, nullptr));
   delete generalized_alpha_data(ts);
   ts->data = nullptr;
-  for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, set_rotations_name,
-                           get_acceleration_name, get_event_error_name, interpolate_name})
+  for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, set_forces_jump_name,
+                           set_rotations_name, get_acceleration_name, get_event_error_name, interpolate_name})
     PetscCall(PetscObjectComposeFunction((PetscObject)ts, name, nullptr));
   PetscFunctionReturn(0);
 }
@@ -249,6 +256,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_multipliers_name, set_multipliers));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_radius_name, set_radius));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_forces_jump_name, set_forces_jump));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_event_error_name, get_event_error));
@@ -278,6 +286,12 @@ PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho) {
 PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context) {
   PetscFunctionBegin;
   PetscTryMethod(ts, "TSGeneralizedAlphaSetStart_C", (TS, TSGeneralizedAlphaStart, void*), (ts, start, context));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TSGeneralizedAlphaSetForcesJump(TS ts) {
+  PetscFunctionBegin;
+  PetscTryMethod(ts, "TSGeneralizedAlphaSetForcesJump_C", (TS), (ts));
   PetscFunctionReturn(0);
 }
 

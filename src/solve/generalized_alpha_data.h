@@ -37,9 +37,10 @@ struct GeneralizedAlpha {
   // step that is longer than the time since then (passed_since_event), what it does not resolve of A - A_before is left
   // out.
   PetscBool after_event = PETSC_FALSE;
-  Vec A_before = nullptr;  // at the start of the motion: A as the equations have it
+  Vec A_before = nullptr;
   PetscReal t_event = 0;
-  PetscReal event_error = 0;  // TSGeneralizedAlphaGetEventError
+  PetscBool forces_jump = PETSC_FALSE;  // at the event that follows, and velocities do not
+  PetscReal event_error = 0;            // TSGeneralizedAlphaGetEventError
 
   // Constants of the step under way: a_n as used, and what the rates are affine in.
   Vec a_used = nullptr, base_q = nullptr, base_v = nullptr, base_A = nullptr;
@@ -143,6 +144,9 @@ PetscErrorCode resolve_accelerations(TS ts);
 /// another force has no part in A_0. A_0 stays where the forces have no curvature along the velocity (a stop within a
 /// tenth of the step) or J is nearly singular. J of zero rates is in the solver. Collective.
 PetscErrorCode resolve_start(TS ts);
+/// A_0 after a jump of loads, which is A_before before it, without what the step does not resolve of the jump, each
+/// motion for itself. J of zero rates is in the solver. Collective.
+PetscErrorCode resolve_jump(TS ts);
 /// A' of a start without what the step does not resolve; J is in the solver.
 PetscErrorCode resolve_jerk(TS ts);
 /// How much of A - a, which is h shift A' of smooth motions, the step resolves, in the norm of M: 1 where it is all, 0

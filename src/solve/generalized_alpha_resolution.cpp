@@ -52,6 +52,19 @@ PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* re
   PetscFunctionReturn(0);
 }
 
+// The Jacobian of the state that the step begins with, without its rates, made the solver's.
+PetscErrorCode jacobian_at_rest(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(data->work_V, 0));
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->work_V, data->work_V, 0, data->shift_a, J, P));
+  PetscCall(take_jacobian(ts));
+  PetscFunctionReturn(0);
+}
+
 // sqrt(x' M x) at the state that the step begins with; e as in multiply_inertia.
 PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
@@ -207,15 +220,11 @@ PetscErrorCode resolve_accelerations(TS ts) {
 
 PetscErrorCode resolve_start(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  Mat J, P;
   PetscReal speed;
   PetscBool good;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(data->work_V, 0));
-  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->work_V, data->work_V, 0, data->shift_a, J, P));
-  PetscCall(take_jacobian(ts));
+  PetscCall(jacobian_at_rest(ts));
   PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
   PetscCall(VecSet(data->a1, 0));
   if (speed > 0) {
@@ -227,6 +236,18 @@ PetscErrorCode resolve_start(TS ts) {
   PetscCall(VecCopy(data->A0, data->V1));
   PetscCall(keep_resolved_part(ts, 1, data->V1, data->a1, &good));
   if (good) PetscCall(VecCopy(data->V1, data->A0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode resolve_jump(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscBool good;
+
+  PetscFunctionBegin;
+  PetscCall(jacobian_at_rest(ts));
+  PetscCall(jump_of_accelerations(data, data->V1));
+  PetscCall(keep_resolved_part(ts, 1, data->V1, nullptr, &good));
+  if (good) PetscCall(VecWAXPY(data->A0, 1, data->A_before, data->V1));
   PetscFunctionReturn(0);
 }
 

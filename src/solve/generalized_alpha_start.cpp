@@ -16,7 +16,9 @@
 //                   forces constant to second order along the velocity, as far as the step resolves it, K a + F_qq v v
 //                   = 0 (centripetal ones of elements that rotate), so that J a_1 = M shift_a A_0 - F_qq v v. A' is
 //                   that of the equations along the motion with this acceleration
-//   A_0 after events
+//   A_0 where loads jump
+//                   A_0 - (1 - R)^2 (A_0 - A_before), A_before of the same state under the loads before
+//   A_0 after other events
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
 //                   than half of it in the norm of M: a joint was released. Also later, where a step of a constrained
 //                   system is longer than the time since the event
@@ -184,6 +186,7 @@ PetscErrorCode note_event(TS ts) {
 
 PetscErrorCode start_consistently(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const bool begins = ts->steps == 0 && !data->after_event;
   Mat inertia = nullptr;
 
   PetscFunctionBegin;
@@ -196,17 +199,18 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(set_scales(ts));
   if (!data->start) PetscCall(accelerations(ts, inertia, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(mark_origin(ts));
-  if (ts->steps == 0 && !data->after_event) {
-    PetscCall(VecCopy(data->A0, data->A_before));
-    PetscCall(resolve_start(ts));
-    PetscCall(differentiate(ts, inertia, data->A_before));
+  if (begins || data->forces_jump) {
+    PetscCall(VecCopy(data->A0, data->normal));
+    PetscCall(begins ? resolve_start(ts) : resolve_jump(ts));
+    PetscCall(differentiate(ts, inertia, data->normal));
     PetscCall(jacobian_of_beginning(ts, 0, data->A0));
   } else {
     PetscCall(differentiate(ts, inertia, data->A0));
     PetscCall(take_jacobian(ts));
   }
-  if (data->multipliers) PetscCall(split_normal(ts));
-  PetscCall(resolve_accelerations(ts));
+  PetscCall(data->multipliers ? split_normal(ts) : VecSet(data->normal, 0));
+  if (!data->forces_jump) PetscCall(resolve_accelerations(ts));
+  data->forces_jump = PETSC_FALSE;
   PetscCall(jacobian_of_beginning(ts, data->shift_v, data->A0));
   PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));

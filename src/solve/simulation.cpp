@@ -104,31 +104,38 @@ void take_up(TS ts, const MotionState& state, MotionContext& context) {
   if (!context.adaptive && next_stop(context) > state.stop * (1 + 1e-12)) check(TSSetTimeStep(ts, context.nominal));
 }
 
+struct PassedKinks {
+  bool any = false;
+  bool velocities = false;  ///< whether they jump
+};
+
 /// Takes the motion over the kinks that are due.
-bool pass_kinks(TS ts, const Integration& how, MotionContext& context) {
+PassedKinks pass_kinks(TS ts, const Integration& how, MotionContext& context) {
+  PassedKinks passed;
   double t = 0;
   Vec U = nullptr, V = nullptr;
   PetscInt step = 0;
   check(TSGetTime(ts, &t));
   check(TSGetStepNumber(ts, &step));
-  if (t >= context.end * (1 - 1e-12)) return false;
-  const auto first = next_kink(context, t);
-  auto kink = first;
-  for (; kink != context.kinks.end() && kink->before <= t + 1e-12 * context.end; ++kink) {
+  if (t >= context.end * (1 - 1e-12)) return passed;
+  for (auto kink = next_kink(context, t); kink != context.kinks.end() && kink->before <= t + 1e-12 * context.end;
+       ++kink) {
     check(TS2GetSolution(ts, &U, &V));
     const EventReport report = pass(context.system, *kink, U, V);
+    passed.any = true, passed.velocities = passed.velocities || !kink->what.empty();
     check(TSSetTime(ts, kink->after));
     context.observed = step > 0;
     if (!kink->what.empty() && how.on_event) how.on_event(report);
   }
-  return kink != first;
+  return passed;
 }
 
 /// Applies the events that are due. Returns whether the motion goes on.
 bool act(TS ts, const Integration& how, MotionContext& context, double nominal) {
   double t = 0;
   Vec U = nullptr, V = nullptr;
-  bool changed = pass_kinks(ts, how, context), stopped = false;
+  const PassedKinks kinks = pass_kinks(ts, how, context);
+  bool applied = false, stopped = false;
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
   for (std::size_t i = 0; i < context.events.size(); ++i) {
@@ -137,10 +144,11 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
     if (!due || context.happened[i] != 0) continue;
     const EventReport report = apply_event(context.system, event, t, U, V);
     context.happened[i] = 1;
-    changed = true, stopped = stopped || event.stops;
+    applied = true, stopped = stopped || event.stops;
     if (how.on_event) how.on_event(report);
   }
-  if (!changed) return true;
+  if (!kinks.any && !applied) return true;
+  if (!kinks.velocities && !applied) check(TSGeneralizedAlphaSetForcesJump(ts));
   check(TSRestartStep(ts));
   if (!how.tolerance) check(TSSetTimeStep(ts, nominal));
   return !stopped;

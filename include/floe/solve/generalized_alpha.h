@@ -34,6 +34,10 @@ PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho);
 using TSGeneralizedAlphaStart = PetscErrorCode (*)(TS ts, PetscReal t, Vec U, Vec V, Vec A, void* context);
 PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context);
 
+/// At the next restart (TSRestartStep) forces jump and velocities do not. What the step does not resolve of the jump of
+/// A is left out of it, each motion for itself, as at the start of a motion.
+PetscErrorCode TSGeneralizedAlphaSetForcesJump(TS ts);
+
 /// Rotations among the unknowns, A = base exp(x), whose rates are angular velocities in rotated axes (not dx/dt).
 /// Source: Bruels, Cardona, Arnold 2012, Lie group generalized-alpha time integration of constrained flexible multibody
 /// systems.
