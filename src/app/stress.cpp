@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -31,6 +32,9 @@ using fem::SmallRows;
 /// The scene of the run, as it was then.
 scene::Scene scene_of(const StressRequest& request, const output::NodeMotion& motion) {
   const std::string path = request.scene.empty() ? motion.scene_file() : request.scene;
+  if (request.scene.empty() && !std::filesystem::exists(path))
+    throw InputError(fmt::format("stress '{}': scene {} of the run is not there; expected it, or --scene FILE",
+                                 request.folder, path));
   scene::Scene scene = scene::read_scene(path);
   if (request.scene.empty() && scene.text != motion.scene_text())
     throw InputError(fmt::format("stress '{}': scene {} has changed since the run; expected the same, or --scene FILE",

@@ -11,6 +11,11 @@ std::string lower(std::string text) {
   return text;
 }
 
+std::string letters(std::string text) {
+  std::erase_if(text, [](char c) { return c == '_' || c == '-' || c == ' '; });
+  return text;
+}
+
 // Damerau-Levenshtein distance, optimal string alignment.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -34,7 +39,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   const std::string sought = lower(word);
   std::string best;
   std::size_t least = longest;
-  std::vector<std::string> begun;
+  std::vector<std::string> begun, containing;
   for (const auto& candidate : known) {
     if (candidate.size() > longest) continue;
     const std::size_t wrong = distance(sought, lower(candidate));
@@ -44,8 +49,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
       best = candidate;
     }
     if (word.size() > 1 && lower(candidate).starts_with(sought)) begun.push_back(candidate);
+    if (word.size() > 3 && letters(lower(candidate)).find(letters(sought)) != std::string::npos)
+      containing.push_back(candidate);
   }
-  if (best.empty() && begun.size() == 1) return begun.front();
+  for (const auto* some : {&begun, &containing})
+    if (best.empty() && some->size() == 1) return some->front();
   return best;
 }
 

@@ -57,6 +57,12 @@ const typename Map::mapped_type* NasBuild::property(const Map& all, long long id
     used_properties_.push_back(id);
     return &found->second;
   }
+  const bool of_shells = model_.shell_properties.contains(id), of_beams = model_.beam_properties.contains(id);
+  if (of_shells || of_beams) {
+    faults_.add(where, fmt::format("{} names property {}, a property of {}; expected one of {}", element, id,
+                                   of_shells ? "shells" : "beams", of_shells ? "beams" : "shells"));
+    return nullptr;
+  }
   std::vector<std::string> known;
   for (const auto& [number, unused] : all) known.push_back(std::to_string(number));
   if (known.size() > 10) known.resize(10);

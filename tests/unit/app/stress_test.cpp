@@ -48,4 +48,6 @@ TEST_CASE("stress: the maximum at the root, and a history elsewhere") {
   CHECK_THAT(refusal(wrong), Contains("names no body from a file"));
   own.write("scene.yaml", text + "title: another\n");
   CHECK_THAT(refusal(request), Contains("has changed since the run"));
+  std::filesystem::remove(own.path / "scene.yaml");
+  CHECK_THAT(refusal(request), Contains("is not there; expected it, or --scene FILE"));
 }

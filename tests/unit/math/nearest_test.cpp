@@ -11,6 +11,10 @@ TEST_CASE("the nearest word is the one with the least edit distance") {
   CHECK(nearest("form", known) == "from");                 // two swapped
   CHECK(nearest("Tolerance", known) == "tolerance");       // case
   CHECK(nearest("spectral", known) == "spectral_radius");  // the beginning
+  const std::vector<std::string> quantities{"stress", "principal_stress", "von_mises_stress"};
+  CHECK(nearest("vonmises", quantities) == "von_mises_stress");
+  CHECK(nearest("mises", quantities) == "von_mises_stress");              // a part of it
+  CHECK(nearest("rane", {"membrane_force", "membrane_strain"}).empty());  // a part of several
 }
 
 TEST_CASE("nothing is near what is far") {

@@ -58,6 +58,7 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
       {"CBUSH,70,9,1,2\nPBUSH,9,K,1.,2.\n", "CBUSH 70 has stiffnesses across its line; expected an orientation vector"},
       {"CBUSH,70,9,1,2,,,,0\n,,0\nPBUSH,9,K,1.,2.\n", "CBUSH: field 13 (OCID"},
       {"GRID,5,,0.,0.,0.\nCBUSH,70,9,1,5\nPBUSH,9,K,1.,2.\n", "CBUSH 70 has grids at one point; expected axes (CID)"},
+      {"CBAR,70,3,1,2,0.,0.,1.\n", "beam 70 names property 3, a property of shells; expected one of beams"},
       {"CROD,70,9,1,2\n", "beam 70 names property 9, which is not defined"},
       {"CONROD,70,1,2,1,0.\n", "CONROD: field 6 expects the area greater than 0"},
       {"CROD,70,9,1,2\nPTUBE,9,1,.1,.06\n", "PTUBE: field 5 expects a wall of at most half the diameter"},
