@@ -99,11 +99,13 @@ Columns relief(const fem::Structure& structure, const Basis& basis, const Static
   const auto with_derivative = [&](const std::pair<int, int>& pair) {
     return follows[pair.first] || follows[pair.second];
   };
+  Columns all;
+  for (const petsc::VecHandle& field : basis.without_mass) all.push_back(copy(field));
   const PetscInt dofs = structure.dofs_per_node * structure.mesh.node_count;
-  if (2 * body.coordinates() > dofs) return {};  // what little the basis lacks is as stiff as round-off is large
-  if (!may_lock(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return {};
+  if (2 * body.coordinates() > dofs) return all;  // what little the basis lacks is as stiff as round-off is large
+  if (!may_lock(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return all;
   const std::vector<VectorXd> samples = sampled_deformations(body, follows);
-  if (samples.empty()) return {};
+  if (samples.empty()) return all;
   const petsc::Stage stage("condensation");
   std::vector<FieldPair> pairs;
   for (const VectorXd& q : samples) {
@@ -111,7 +113,8 @@ Columns relief(const fem::Structure& structure, const Basis& basis, const Static
     for (Index i = 0; i < q.size(); ++i) (follows[static_cast<std::size_t>(i)] ? leads : others)[i] = 0;
     pairs.emplace_back(lifted(structure, basis, leads), lifted(structure, basis, others));
   }
-  return statics.solve(strain_loads(structure, pairs));
+  for (petsc::VecHandle& field : statics.solve(strain_loads(structure, pairs))) all.push_back(std::move(field));
+  return all;
 }
 
 Columns relief(const fem::Structure& structure, const Basis& basis, const Statics& statics,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "floe/fem/field_rows.h"
@@ -115,6 +116,66 @@ void drop_round_off(const fem::Structure& structure, const std::vector<double>& 
     if (squares[i] <= 1e-20 * greatest) check(VecSet(columns[i], 0));
 }
 
+/// Q of QR of fields that are alike: those of the singular vectors of more than 1e-6 of the greatest. Collective.
+Columns independent(const Columns& fields) {
+  const auto n = static_cast<Eigen::Index>(fields.size());
+  const std::vector<Vec> all(fields.begin(), fields.end());
+  Eigen::MatrixXd gram(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    check(VecMDot(all[static_cast<std::size_t>(i)], static_cast<PetscInt>(n), all.data(), gram.col(i).data()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> main(gram);
+  Columns found;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double square = main.eigenvalues()[i];
+    if (!(square > 1e-12 * main.eigenvalues()[n - 1])) continue;
+    found.push_back(copy(fields.front()));
+    check(VecSet(found.back(), 0));
+    const Eigen::VectorXd factors = main.eigenvectors().col(i) / std::sqrt(square);
+    check(VecMAXPY(found.back(), static_cast<PetscInt>(n), factors.data(), const_cast<Vec*>(all.data())));
+  }
+  return found;
+}
+
+/// Norms of the displacements and of the rotations of the nodes. Collective.
+std::array<double, 2> norms_of(const fem::Structure& structure, Vec field) {
+  petsc::Values values(field);
+  const Eigen::Map<const Eigen::MatrixXd> nodes(values.begin(), structure.dofs_per_node, structure.mesh.owned_nodes);
+  std::array<double, 2> squares{nodes.topRows<3>().squaredNorm(), nodes.bottomRows<3>().squaredNorm()};
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), 2, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+}
+
+/// Whether there are no more nodes than basis vectors, and shells among the elements. Collective.
+bool few_shells(const fem::Structure& structure, std::size_t columns) {
+  if (structure.dofs_per_node != 6 || static_cast<PetscInt>(columns) < structure.mesh.node_count) return false;
+  const auto& cells = structure.mesh.cells;
+  int shells = std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return mesh::is_shell(cell.kind); });
+  MPI_Allreduce(MPI_IN_PLACE, &shells, 1, MPI_INT, MPI_MAX, structure.mesh.comm);
+  return shells != 0;
+}
+
+/// What is left of dropped derivatives without their parts along the basis, where it has no mass: drilling rotations of
+/// shells. In the inner product of M it is nothing, but without it the body locks. Collective.
+Columns without_mass(const fem::Structure& structure, const Basis& basis, const Columns& derivatives) {
+  constexpr double of_mass = 1e-6, of_displacements = 1e-4;  // less of the rotations is round-off
+  const double length = fem::extent(structure);
+  Columns all;
+  Eigen::VectorXd q(basis.columns);
+  const std::size_t first = basis.origins.size() - derivatives.size();
+  for (std::size_t p = 0; p < derivatives.size(); ++p) {
+    const ColumnOrigin& origin = basis.origins[first + p];
+    if (origin.kept || origin.new_part > of_mass || !(basis.norms[static_cast<Eigen::Index>(first + p)] > 0)) continue;
+    petsc::VecHandle left = copy(derivatives[p]);
+    check(BVDotVec(basis.V, left, q.data()));
+    check(BVMultVec(basis.V, -1, 1, left, q.data()));
+    const double rotations = norms_of(structure, left)[1];
+    if (!(length * rotations > of_displacements * norms_of(structure, derivatives[p])[0])) continue;
+    check(VecScale(left, 1 / rotations));
+    all.push_back(std::move(left));
+  }
+  return all.empty() ? Columns{} : independent(all);
+}
+
 }  // namespace
 
 std::string derivative_label(const Generators& generators, int i, int j) {
@@ -168,9 +229,11 @@ Basis basis_of(const fem::Structure& structure, const Generators& generators, De
         const auto at = static_cast<std::size_t>(j);
         structure.exchange.gather(at < first ? taken[at] : derivatives.columns[at - first].get(), local);
       });
-  derivatives.columns.clear();  // their memory
+  const bool may_fill = few_shells(structure, first + derivatives.columns.size());
+  if (!may_fill) derivatives.columns.clear();  // their memory
   origins.insert(origins.end(), derivatives.origins.begin(), derivatives.origins.end());
   Basis basis = orthonormal_basis(structure, std::move(candidates), std::move(origins), tolerance);
+  if (may_fill) basis.without_mass = without_mass(structure, basis, derivatives.columns);
   if (left_out.empty())
     for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
   return basis;

@@ -23,6 +23,9 @@ struct Basis {
   int columns = 0;
   std::vector<ColumnOrigin> origins;  ///< of every candidate, in order
   Eigen::VectorXd norms;              ///< M-norms of the candidates
+  /// What dropped derivatives have without mass (drilling rotations of shells), over which the elastic energy is
+  /// condensed. Of shells of no more nodes than candidates.
+  Columns without_mass;
 };
 
 /// Orthonormalises candidates in their order, in the M inner product; a column whose new part is below `tolerance`
