@@ -24,6 +24,8 @@ constexpr double impossible = std::numeric_limits<double>::infinity();
 constexpr double of_discretisation = 2. / 3;  // of the accuracy, for frames, elements and strains
 constexpr double most_seconds = 60;           // of one simulation in formulation cfr
 constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
+constexpr const char* too_large = "too large";
+constexpr double most_work = 1e5;  // elements of plates times steps, of a simulation at full order: about 10 s
 
 /// What is chosen before the reduced model: frames, elements, strains.
 class TotalSearch {
@@ -47,6 +49,7 @@ class TotalSearch {
     if (full_order()) {
       lengthen_steps();
       choose_frames_and_elements();
+      if (error_of(chosen_) == impossible) choose_elements();
     } else {
       choose_elements();
     }
@@ -79,15 +82,18 @@ class TotalSearch {
   std::string mesh_words() const { return fmt::format("elements 1/{} as long, ", 1 << (exact_.of_mesh.size() - 1)); }
   std::string step_words() const { return fmt::format("1/{} as long, extrapolated", 1 << exact_.halved_steps); }
 
-  /// Whether full-order models of all flexible bodies are cheap: lines.
+  /// Whether full-order models of all flexible bodies are cheap: lines, and plates of few elements.
   bool full_order() const {
-    int elements = 0;
-    for (const scene::Body& body : scene_.bodies) {
-      if (body.rigid) continue;
-      if (!is_meshed(body) || body.mesh.plate || body.mesh.file) return false;
-      for (const int one : body.mesh.elements) elements += one;
-    }
-    return elements <= most_elements;
+    for (const scene::Body& body : scene_.bodies)
+      if (!body.rigid && (!is_meshed(body) || body.mesh.file)) return false;
+    return element_count(scene_, chosen_) <= most_elements && cheap(chosen_);
+  }
+
+  bool cheap(const Discretisation& bodies) const {
+    if (std::none_of(scene_.bodies.begin(), scene_.bodies.end(),
+                     [](const scene::Body& body) { return !body.rigid && body.mesh.plate; }))
+      return true;
+    return element_count(scene_, bodies) * scene_.motion.end / (times_ * scene_.motion.step) <= most_work;
   }
 
   /// Full-order models and the reference are compared in steps as long as their error may be half of the accuracy: the
@@ -111,10 +117,12 @@ class TotalSearch {
     for (const Candidate& known : tried_bodies_)
       if (known.bodies == bodies) return known.error;
     Candidate one{bodies, impossible, "no finite numbers"};
+    if (!cheap(bodies)) one.failed = too_large;
     try {
-      one.error = worst_error(
-          quiet_motion(in_long_steps(discretised(scene_, bodies)), scene::Formulation::nlffr, accuracy_, comm_),
-          exact_.in_own_steps);
+      if (cheap(bodies))
+        one.error = worst_error(
+            quiet_motion(in_long_steps(discretised(scene_, bodies)), scene::Formulation::nlffr, accuracy_, comm_),
+            exact_.in_own_steps);
     } catch (const std::runtime_error& fault) {  // on all ranks
       if (Interruption::happened(comm_)) throw;
       one.failed = fault.what();
@@ -136,8 +144,8 @@ class TotalSearch {
   template <class More>
   Discretisation first_that_moves(const More& more) {
     Discretisation one = more(chosen_);
-    for (Discretisation next = more(one); !(one == chosen_) && error_of(one) == impossible && !(next == one);
-         next = more(one))
+    for (Discretisation next = more(one);
+         !(one == chosen_) && error_of(one) == impossible && !(next == one) && cheap(next); next = more(one))
       one = next;
     return one;
   }
@@ -157,12 +165,8 @@ class TotalSearch {
       if ((only >= 0 && static_cast<int>(b) != only) || !divisible(scene_.bodies[b])) continue;
       if (bodies[b].frames * 2 > most_frames) continue;
       bodies[b].frames *= 2;
-      const auto fits = [&] {
-        const int count = scene_.bodies[b].mesh.elements[0] * bodies[b].elements;
-        return count % bodies[b].frames == 0 && count >= 2 * bodies[b].frames;
-      };
-      while (!fits() && bodies[b].elements < most_times) ++bodies[b].elements;
-      if (!fits()) bodies[b].frames /= 2;
+      while (!fits(scene_.bodies[b], bodies[b]) && bodies[b].elements < most_times) ++bodies[b].elements;
+      if (!fits(scene_.bodies[b], bodies[b])) bodies[b].frames /= 2;
     }
     return bodies;
   }
@@ -231,7 +235,7 @@ class TotalSearch {
       std::string one = scene_.bodies.size() > 1 ? body.name + ": " : "";
       one += body.mesh.file ? imported_words(bodies[b].elements)
                             : fmt::format("{} elements", fmt::join(counts, body.mesh.plate ? "x" : "+"));
-      if (body.mesh.segments.size() == 1)
+      if (body.mesh.segments.size() == 1 || bodies[b].frames > 1)
         one += fmt::format(" in {} frame{}", bodies[b].frames, bodies[b].frames > 1 ? "s" : "");
       if (bodies[b].strains)
         one += *bodies[b].strains == fem::Strains::second_order ? ", strains second_order" : ", strains von_karman";
@@ -242,9 +246,10 @@ class TotalSearch {
 
   void explain_discretisation() {
     for (const Candidate& one : tried_bodies_)
-      tried_.push_back(
-          fmt::format("{}: {}", words(one.bodies),
-                      std::isfinite(one.error) ? math::percent(one.error) : fmt::format("fails ({})", one.failed)));
+      tried_.push_back(fmt::format("{}: {}", words(one.bodies),
+                                   std::isfinite(one.error)  ? math::percent(one.error)
+                                   : one.failed == too_large ? "not simulated (too large)"
+                                                             : fmt::format("fails ({})", one.failed)));
     const std::string choice = words(chosen_);
     if (!choice.empty())
       decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));

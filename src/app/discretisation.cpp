@@ -49,7 +49,30 @@ void write_frames(YAML::Node node, const Body& body, int frames) {
 }  // namespace
 
 bool divisible(const Body& body) {
-  return is_meshed(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty();
+  return is_meshed(body) && (body.mesh.segments.size() == 1 || body.mesh.plate) && body.reduction.interface.empty();
+}
+
+double element_count(const Scene& scene, const Discretisation& bodies) {
+  double sum = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (body.rigid || !is_meshed(body)) continue;
+    const double times = bodies[b].elements;
+    if (body.mesh.plate) sum += times * times * body.mesh.plate->elements[0] * body.mesh.plate->elements[1];
+    for (const int elements : body.mesh.elements) sum += times * elements;
+  }
+  return sum;
+}
+
+bool fits(const Body& body, const Discretised& one) {
+  if (!body.mesh.plate) {
+    const int count = body.mesh.elements[0] * one.elements;
+    return count % one.frames == 0 && count >= 2 * one.frames;
+  }
+  const scene::PlateSpec& plate = *body.mesh.plate;
+  const auto square = [](const scene::Point& p) { return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]; };
+  const int longer = square(plate.across) > square(plate.along) ? 1 : 0;
+  return plate.elements[static_cast<std::size_t>(longer)] * one.elements >= 2 * one.frames;
 }
 
 Discretisation discretisation_of(const Scene& scene) {

@@ -16,8 +16,14 @@ struct Discretised {
 /// Of each body; those that are rigid or reduced in files do not change.
 using Discretisation = std::vector<Discretised>;
 
-/// Whether it is one straight line whose floating frame may be divided.
+/// Whether it is one straight line or a plate, whose floating frame may be divided.
 bool divisible(const scene::Body& body);
+
+/// Elements of the flexible bodies with lines and plates.
+double element_count(const scene::Scene& scene, const Discretisation& bodies);
+
+/// Whether each of its pieces has two elements along it; the pieces of a line have equally many.
+bool fits(const scene::Body& body, const Discretised& one);
 
 Discretisation discretisation_of(const scene::Scene& scene);
 

@@ -25,10 +25,13 @@ struct Variant {
   std::string impossible;
 };
 
+/// Plates are left out: of each model in several frames they take minutes.
+bool in_other_frames(const Body& body) { return divisible(body) && !body.mesh.plate; }
+
 /// How many times the elements so many frames need: two in each at least; 0: nothing that is tried fits.
 int times_for(const Body& body, int frames) {
   for (int times = 1; times <= most_element_times; ++times)
-    if (const int count = body.mesh.elements[0] * times; count % frames == 0 && count >= 2 * frames) return times;
+    if (fits(body, {frames, times})) return times;
   return 0;
 }
 
@@ -36,7 +39,7 @@ Variant in_frames(const Scene& scene, int frames) {
   Discretisation bodies = discretisation_of(scene);
   int most = 1;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!divisible(scene.bodies[b])) continue;
+    if (!in_other_frames(scene.bodies[b])) continue;
     const int times = times_for(scene.bodies[b], frames);
     if (times == 0) continue;
     bodies[b].frames = frames, bodies[b].elements = times;
@@ -55,7 +58,7 @@ Variant in_frames(const Scene& scene, int frames) {
 
 std::vector<Variant> in_all_frames(const Scene& scene) {
   std::vector<Variant> variants;
-  const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(), divisible);
+  const auto at = std::find_if(scene.bodies.begin(), scene.bodies.end(), in_other_frames);
   if (at == scene.bodies.end()) return variants;
   for (const int frames : {1, 2, 4, 8})
     if (frames != at->frames && times_for(*at, frames) > 0) variants.push_back(in_frames(scene, frames));
