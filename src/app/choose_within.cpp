@@ -81,8 +81,9 @@ class Search {
                                        responses, math::percent(space_), math::percent(first))
                          : "estimated error " + math::percent(space_));
     if (too_low > 2)
-      decisions_.back().reason += fmt::format(
-          "; the first estimates were too low by a factor of up to {:.2g}, which is accounted for", too_low);
+      decisions_.back().reason +=
+          fmt::format("; the first estimates were too low by a factor of {}, which is accounted for",
+                      too_low > 1e4 ? "more than 10000" : fmt::format("up to {:.2g}", too_low));
   }
 
   double estimate_of(const RunResult& result) const {

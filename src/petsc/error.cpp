@@ -27,7 +27,10 @@ PetscErrorCode collect(MPI_Comm, int, const char* function, const char*, PetscEr
   if (type == PETSC_ERROR_INITIAL) {
     trace() = {meaning_of(code), "", ""};
     const std::string text = message ? message : "";
-    if (!text.empty()) trace().message += ": " + text.substr(0, text.find('\n'));
+    if (code == PETSC_ERR_MAT_LU_ZRPVT || code == PETSC_ERR_MAT_CH_ZRPVT)
+      trace().message = "a matrix is singular (PETSc error " + std::to_string(code) + ", zero pivot)";
+    else if (!text.empty())
+      trace().message += ": " + text.substr(0, text.find('\n'));
   }
   if (!function || std::string(function) == "User provided function") return code;
   if (trace().innermost.empty()) trace().innermost = function;

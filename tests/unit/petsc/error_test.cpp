@@ -31,6 +31,15 @@ TEST_CASE("check throws PETSc's code and message in one line, with the functions
   CHECK_THROWS_WITH(petsc::check(PETSC_ERR_MEM), Contains("55") && !Contains("no such type"));  // nothing is left over
 }
 
+TEST_CASE("a singular matrix is named so") {
+  petsc::MatHandle A;
+  petsc::check(MatCreateSeqDense(PETSC_COMM_SELF, 2, 2, nullptr, A.out()));
+  petsc::check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  petsc::check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  CHECK_THROWS_WITH(petsc::check(MatLUFactor(A, nullptr, nullptr, nullptr)),
+                    Contains("a matrix is singular") && !Contains("http"));
+}
+
 TEST_CASE("agree returns on all ranks when all is well") {
   int done = 0;
   CHECK_NOTHROW(agree(PETSC_COMM_WORLD, [&] { ++done; }));
