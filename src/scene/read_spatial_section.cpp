@@ -57,26 +57,16 @@ fem::Section shell_of(Document& document, Reading& reading, const Material& mate
 }
 
 fem::SectionShape shape_of(Document& document, Reading& reading) {
+  if (reading.given("shape")) return read_shape(document, reading);
   const auto measure = [&](const char* key) {
     const auto number = reading.optional_number(key);
     if (!number) document.fault(reading.where(key), "is missing", describe(reading.key(key)));
     return number.value_or(NAN);
   };
-  if (!reading.given("shape")) {
-    fem::SectionShape shape;
-    shape.A = measure("A"), shape.Iy = measure("Iy"), shape.Iz = measure("Iz"), shape.J = measure("J");
-    shape.Iyz = reading.number("Iyz");
-    return shape;
-  }
-  const std::string shape = reading.choice("shape");
-  if (shape == "rectangle") return fem::rectangle(measure("width"), measure("height"));
-  if (shape == "circle") return fem::circle(measure("radius"));
-  if (shape == "tube") {
-    const double radius = measure("radius");
-    return fem::tube(radius, radius - measure("wall"));
-  }
-  const double width = measure("width"), height = measure("height"), wall = measure("wall");
-  return shape == "box" ? fem::box(width, height, wall, wall) : fem::i_section(width, height, measure("flange"), wall);
+  fem::SectionShape shape;
+  shape.A = measure("A"), shape.Iy = measure("Iy"), shape.Iz = measure("Iz"), shape.J = measure("J");
+  shape.Iyz = reading.number("Iyz");
+  return shape;
 }
 
 /// Extreme fibres of a shape, or those that are given.
@@ -129,42 +119,31 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
 /// Keys of the section that belong to what it describes: shells, a shape of beams, or beams by their constants ("A").
 std::vector<std::string> keys_of(const std::string& kind) {
   if (kind == "shells") return {"thickness", "plies", "offset", "axis"};
-  std::vector<std::string> keys{"orientation", "centroid", "shear_factor", "wagner"};
-  const auto add = [&](std::initializer_list<const char*> more) {
-    keys.insert(keys.begin(), more.begin(), more.end());
-  };
-  if (kind == "A") add({"A", "Iy", "Iz", "Iyz", "J", "fibres"});
-  if (kind == "rectangle") add({"shape", "width", "height"});
-  if (kind == "circle") add({"shape", "radius"});
-  if (kind == "tube") add({"shape", "radius", "wall"});
-  if (kind == "box") add({"shape", "width", "height", "wall"});
-  if (kind == "i") add({"shape", "width", "height", "flange", "wall"});
+  std::vector<std::string> keys =
+      kind == "A" ? std::vector<std::string>{"A", "Iy", "Iz", "Iyz", "J", "fibres"} : shape_keys(kind);
+  for (const char* key : {"orientation", "centroid", "shear_factor", "wagner"}) keys.emplace_back(key);
   return keys;
-}
-
-void refuse_other_keys(Document& document, const Reading& reading, const std::string& kind) {
-  const std::vector<std::string> keys = keys_of(kind);
-  for (const Key& key : schema_section("spatial section").keys)
-    if (reading.given(key.name) && std::count(keys.begin(), keys.end(), key.name) == 0)
-      document.fault(reading.where(key.name),
-                     kind == "shells" ? "does not apply to shells"
-                     : kind == "A"    ? "does not apply to beams without shape"
-                                      : fmt::format("does not apply to shape {}", kind),
-                     fmt::format("one of {}", fmt::join(keys, ", ")));
 }
 
 fem::Section section_of(Document& document, const Value& value, const Material& material, fem::StressPoints& points) {
   Reading reading(document, value, "spatial section");
-  const bool shell = reading.given("thickness") || reading.given("plies");
-  const bool beam = reading.given("shape") || reading.given("A");
-  if (shell == beam || (reading.given("thickness") && reading.given("plies")))
+  const bool shaped = reading.given("shape");
+  const bool shell = !shaped && (reading.given("thickness") || reading.given("plies"));
+  const bool beam = shaped || reading.given("A");
+  if (shell == beam || (shell && reading.given("thickness") && reading.given("plies")))
     document.fault(value.where, "is a section neither of shells nor of beams, or of both",
                    "thickness or plies (shells), or shape or A (beams)");
   const std::size_t before = document.fault_count();
   if (shell == beam) return fem::SpatialBeam{};
-  const std::string shape = !shell && reading.given("shape") ? reading.choice("shape") : "";
+  const std::string shape = shaped ? reading.choice("shape") : "";
   if (document.fault_count() != before) return fem::SpatialBeam{};
-  refuse_other_keys(document, reading, shell ? "shells" : shape.empty() ? "A" : shape);
+  refuse_keys_but(document, reading, schema_section("spatial section").keys,
+                  keys_of(shell    ? "shells"
+                          : shaped ? shape
+                                   : "A"),
+                  shell    ? "shells"
+                  : shaped ? "shape " + shape
+                           : "beams without shape");
   try {
     return shell ? shell_of(document, reading, material, points) : beam_of(document, reading, material, points);
   } catch (const InputError& error) {

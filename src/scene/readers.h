@@ -23,6 +23,14 @@ std::array<double, 6> read_inertia(Document& document, Reading& mass);
 InitialSpec read_initial(Document& document, Reading& body);
 /// The keys section and material of a body.
 Section read_section(Document& document, Reading& body, bool rigid);
+
+/// A section given by `shape` and its measures. @throws InputError  measures that do not fit
+fem::SectionShape read_shape(Document& document, Reading& section);
+std::vector<std::string> shape_keys(const std::string& shape);
+
+/// A fault for each of `all` that is given and not among `keys`, of something that they do not apply to.
+void refuse_keys_but(Document& document, const Reading& reading, const std::vector<Key>& all,
+                     const std::vector<std::string>& keys, const std::string& of);
 /// The keys section, material and parts of a body in space.
 std::vector<PartSpec> read_parts(Document& document, Reading& body);
 /// @param body  its name

@@ -137,9 +137,21 @@ const SchemaSection segments_section{
 
 const SchemaSection section_section{
     "section",
-    "Section of a beam in a planar scene. With `material`: A and I; without: EA, EI and rhoA.",
+    "Section of a beam in a planar scene. With `material`: shape, or A and I; without: EA, EI and rhoA.",
     "A: 70\nI: 585",
     {
+        {"shape",
+         Type::choice,
+         "",
+         "",
+         "shape of the section, its height in the plane; absent: A and I, or EA, EI and rhoA are given",
+         any,
+         {"rectangle", "circle", "tube", "box", "i"}},
+        {"width", Type::number, "m", "", "width of rectangle, box, i", positive},
+        {"height", Type::number, "m", "", "height of rectangle, box, i", positive},
+        {"radius", Type::number, "m", "", "radius of circle; outer radius of tube", positive},
+        {"wall", Type::number, "m", "", "wall thickness of tube, box; web thickness of i", positive},
+        {"flange", Type::number, "m", "", "flange thickness of i", positive},
         {"A", Type::number, "m2", "", "cross-sectional area; with material", positive},
         {"I", Type::number, "m4", "", "second moment of area; with material", positive},
         {"fibre", Type::number, "m", "",
