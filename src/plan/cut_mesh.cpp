@@ -35,11 +35,11 @@ std::vector<double> stations(const Body& body, const RawMesh& mesh) {
   for (const Vector3d& direction : directions) {
     std::vector<double> s;
     for (const Vector3d& x : mesh.positions) s.push_back(direction.dot(x));
-    const auto [low, high] = std::minmax_element(s.begin(), s.end());
-    const double own = *high - *low;
+    const auto [least, greatest] = std::minmax_element(s.begin(), s.end());
+    const double begin = *least, own = *greatest - begin;
     if (!(own > extent * (1 + 1e-9))) continue;
     extent = own;
-    for (double& at : s) at -= *low;
+    for (double& at : s) at -= begin;
     longest = std::move(s);
   }
   const double length = *std::max_element(longest.begin(), longest.end());

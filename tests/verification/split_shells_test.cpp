@@ -8,11 +8,11 @@ using namespace floe::test;
 namespace {
 
 /// A strip of shells 10 x 1 x 0.1, EI = 100, clamped at its left end, in n frames.
-std::string strip(int n, const std::string& load) {
+std::string strip(int n, const std::string& load, const std::string& origin = "[0, 0, 0]") {
   return fill(R"yaml(
 bodies:
   strip:
-    mesh: {plate: {along: [10, 0, 0], across: [0, 1, 0], elements: [32, 2], cells: quadrilaterals}}
+    mesh: {plate: {origin: $origin, along: [10, 0, 0], across: [0, 1, 0], elements: [32, 2], cells: quadrilaterals}}
     section: {thickness: 0.1}
     material: {E: 1.2e6, nu: 0, rho: 1}
     frames: $n
@@ -20,7 +20,7 @@ joints: {clamp: {type: fixed, between: [ground, strip.left]}}
 loads: {tip: $load}
 probes: {tip: {at: strip.right}}
 )yaml",
-              {{"n", std::to_string(n)}, {"load", load}});
+              {{"n", std::to_string(n)}, {"load", load}, {"origin", origin}});
 }
 
 const std::string force = "{type: force, at: strip.right, force: [0, 0, 4*t]}";
@@ -87,6 +87,16 @@ TEST_CASE("a strip of shells in several frames under an end force: the elastica"
   CHECK(in_4 < 0.01);
   CHECK(in_8 < in_4 / 4);  // order 2 at least
   CHECK(error(rest(strip(4, force), Formulation::vm_md, 4), -3.2894, 6.6996) < 0.01);
+}
+
+// Before, of meshes that do not begin at 0 the stations of the cuts were measured from there for one node alone.
+TEST_CASE("a strip of shells is cut in the same places wherever its mesh begins") {
+  const double expected = rest(strip(4, force), Formulation::nlffr, 2)["tip.z"].back();
+  for (const double x : {-15., -5., 3.}) {
+    INFO(x);
+    const History moved = rest(strip(4, force, fmt::format("[{}, 1, -2]", x)), Formulation::nlffr, 2);
+    CHECK(moved["tip.z"].back() == Approx(expected).epsilon(1e-8));
+  }
 }
 
 // A circle: tip at L sin(phi) / phi, L (1 - cos(phi)) / phi at the slope phi = M L / EI.

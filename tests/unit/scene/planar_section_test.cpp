@@ -61,7 +61,8 @@ TEST_CASE("keys beside a shape in the plane, and shapes without material, are re
         "s.yaml:4:44: bodies.b.section.A: does not apply to shape circle; expected one of shape, radius, rhoI, GA");
   CHECK_THAT(told("shape: circle, width: 1"), Contains("section.radius: is missing"));
   CHECK_THAT(told("shape: tub, radius: 1"), Contains("did you mean \"tube\"?"));
-  CHECK_THAT(told("shape: tube, radius: 1, wall: 2"), Contains("s.yaml:4:5: bodies.b.section: tube: sizes must be positive"));
+  CHECK_THAT(told("shape: tube, radius: 1, wall: 2"),
+             Contains("s.yaml:4:5: bodies.b.section: tube: sizes must be positive"));
   CHECK_THAT(told("shape: circle, radius: 1", ""),
              Contains("section.shape: does not apply here; expected this key only with `material`"));
 }
