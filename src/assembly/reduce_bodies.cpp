@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/mode_warnings.h"
@@ -91,12 +92,21 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
 /// From so many on they take most of a step (docs/benchmarks/online.md).
 constexpr int many_products = 300;
 
-void warn_of_products(const PlannedBody& body, const BodyReport& report, std::vector<std::string>& warnings) {
-  if (body.spec.reduction.products || report.products <= many_products) return;
-  warnings.push_back(fmt::format(
-      "body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
-      "(reduction) omits those that hardly move the body, products: all keeps them and silences this warning",
-      body.spec.name, report.products));
+/// Of the pieces of a body, of the one that has most.
+void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shared, const std::vector<ReducedBody>& all,
+                      std::vector<std::string>& warnings) {
+  std::map<std::string, std::size_t> most;  // by body of the scene
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const Body& spec = plan.bodies[b].spec;
+    if (shared[b].of >= 0 || spec.reduction.products || all[b].report.products <= many_products) continue;
+    const auto [at, first] = most.try_emplace(whole_name(spec), b);
+    if (!first && all[b].report.products > all[at->second].report.products) at->second = b;
+  }
+  for (const auto& [name, b] : most)
+    warnings.push_back(fmt::format(
+        "body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
+        "(reduction) omits those that hardly move the body, products: all keeps them and silences this warning",
+        plan.bodies[b].spec.name, all[b].report.products));
 }
 
 /// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static
@@ -346,7 +356,6 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     }
     end_stage(body, stages[b], std::move(derivatives), all[b]);
     warn_of_loads(plan, b, {}, stages[b], all[b], warnings);
-    warn_of_products(body, all[b].report, warnings);
     for (int copy = b + 1; copy < count; ++copy)
       if (shared[copy].of == b) warn_of_loads(plan, copy, shared[copy].placement, stages[b], all[b], warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
@@ -358,6 +367,7 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
       if (keep_statics && !all[copy].statics) all[copy].statics = statics_of(plan, copy);
     }
   }
+  warn_of_products(plan, shared, all, warnings);
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "floe/assembly/offline.h"
@@ -196,6 +197,23 @@ void judge_shape(const Model& model, const BodyReport& body, const Seen& seen, s
   if (model.formulation != Formulation::nlffr && !linear) judge_stretching(body, seen, out);
 }
 
+/// Of the pieces of a body in several frames, for each thing that is judged, the one that is farthest out of range.
+void keep_worst_pieces(const Model& model, std::vector<OutOfRange>& out) {
+  std::map<std::pair<std::string, std::string>, std::size_t> worst;  // by body and thing
+  std::vector<OutOfRange> kept;
+  for (OutOfRange& one : out) {
+    const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                   [&](const BodyReport& report) { return report.name == one.of; });
+    const bool piece = body != model.bodies.end() && body->whole != body->name;
+    const auto at = piece ? worst.try_emplace({body->whole, one.what}, kept.size()) : std::pair{worst.end(), true};
+    if (at.second)
+      kept.push_back(std::move(one));
+    else if (one.value > kept[at.first->second].value)
+      kept[at.first->second] = std::move(one);
+  }
+  out = std::move(kept);
+}
+
 }  // namespace
 
 petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
@@ -228,6 +246,7 @@ std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vecto
       judge_shape(model, model.bodies[b], seen[b], out);
       judge_missing(model, b, samples_of(states), out);
     }
+  keep_worst_pieces(model, out);
   return out;
 }
 
@@ -254,6 +273,7 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
   }
   judge_loads(scene, model, out);
   judge_step(scene, model, seen, out);
+  keep_worst_pieces(model, out);
   return out;
 }
 

@@ -136,6 +136,10 @@ probes: {tip: {at: plate.right}}
 )yaml",
                 {{"modes", std::to_string(modes)}});
   };
+  const auto& warnings = rest(plate(6), Formulation::vm_md, 1).model.warnings;
+  CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& text) {
+          return text.find("products of coordinates") != std::string::npos;
+        }) == 1);  // of the piece that has most
   const double expected = deflection(plate(1), Formulation::nlffr);
   for (const int modes : {6, 12}) {
     INFO(modes);
