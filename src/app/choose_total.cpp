@@ -24,7 +24,6 @@ constexpr double impossible = std::numeric_limits<double>::infinity();
 constexpr double of_discretisation = 2. / 3;  // of the accuracy, for frames, elements and strains
 constexpr double most_seconds = 60;           // of one simulation in formulation cfr
 constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
-constexpr const char* too_large = "too large";
 constexpr double most_work = 1e5;  // elements of plates times steps, of a simulation at full order: about 10 s
 
 /// What is chosen before the reduced model: frames, elements, strains.
@@ -33,7 +32,7 @@ class TotalSearch {
   struct Candidate {
     Discretisation bodies;
     double error;        // of the worst probe
-    std::string failed;  // where the error is impossible: why
+    std::string failed;  // where the error is impossible: in words
   };
 
  public:
@@ -116,18 +115,19 @@ class TotalSearch {
   double error_of(const Discretisation& bodies) {
     for (const Candidate& known : tried_bodies_)
       if (known.bodies == bodies) return known.error;
-    Candidate one{bodies, impossible, "no finite numbers"};
-    if (!cheap(bodies)) one.failed = too_large;
+    Candidate one{bodies, impossible, "fails (no finite numbers)"};
     try {
-      if (cheap(bodies))
+      if (!cheap(bodies))
+        one.failed = "not simulated (too large)";
+      else
         one.error = worst_error(
             quiet_motion(in_long_steps(discretised(scene_, bodies)), scene::Formulation::nlffr, accuracy_, comm_),
             exact_.in_own_steps);
     } catch (const std::runtime_error& fault) {  // on all ranks
       if (Interruption::happened(comm_)) throw;
-      one.failed = fault.what();
-      one.failed.resize(
-          std::min({one.failed.find(';'), one.failed.find('\n'), one.failed.find(" ("), one.failed.size()}));
+      const std::string text = fault.what();
+      one.failed = fmt::format(
+          "fails ({})", text.substr(0, std::min({text.find(';'), text.find('\n'), text.find(" ("), text.size()})));
     }
     if (!std::isfinite(one.error)) one.error = impossible;
     tried_bodies_.push_back(one);
@@ -246,10 +246,8 @@ class TotalSearch {
 
   void explain_discretisation() {
     for (const Candidate& one : tried_bodies_)
-      tried_.push_back(fmt::format("{}: {}", words(one.bodies),
-                                   std::isfinite(one.error)  ? math::percent(one.error)
-                                   : one.failed == too_large ? "not simulated (too large)"
-                                                             : fmt::format("fails ({})", one.failed)));
+      tried_.push_back(
+          fmt::format("{}: {}", words(one.bodies), std::isfinite(one.error) ? math::percent(one.error) : one.failed));
     const std::string choice = words(chosen_);
     if (!choice.empty())
       decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));

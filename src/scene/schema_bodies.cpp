@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "schema_parts.h"
 #include "schema_ranges.h"
 
@@ -135,36 +137,25 @@ const SchemaSection segments_section{
         {"elements", Type::integers, "", required, "number of elements of each segment, or one number for all", counts},
     }};
 
-const SchemaSection section_section{
-    "section",
-    "Section of a beam in a planar scene. With `material`: shape, or A and I; without: EA, EI and rhoA.",
-    "A: 70\nI: 585",
-    {
-        {"shape",
-         Type::choice,
-         "",
-         "",
-         "shape of the section, its height in the plane; absent: A and I, or EA, EI and rhoA are given",
-         any,
-         {"rectangle", "circle", "tube", "box", "i"}},
-        {"width", Type::number, "m", "", "width of rectangle, box, i", positive},
-        {"height", Type::number, "m", "", "height of rectangle, box, i", positive},
-        {"radius", Type::number, "m", "", "radius of circle; outer radius of tube", positive},
-        {"wall", Type::number, "m", "", "wall thickness of tube, box; web thickness of i", positive},
-        {"flange", Type::number, "m", "", "flange thickness of i", positive},
-        {"A", Type::number, "m2", "", "cross-sectional area; with material", positive},
-        {"I", Type::number, "m4", "", "second moment of area; with material", positive},
-        {"fibre", Type::number, "m", "",
-         "distance of the extreme fibres from the line of centroids, for stresses (floe stress); with material",
-         positive},
-        {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
-        {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
-        {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},
-        {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I with material, 0 without",
-         nonnegative},
-        {"GA", Type::number, "N", "",
-         "shear stiffness kappa G A (Timoshenko beam); absent: no shear deformation (Euler-Bernoulli beam)", positive},
-    }};
+const SchemaSection section_section = with_shape(
+    {"section",
+     "Section of a beam in a planar scene. With `material`: shape, or A and I; without: EA, EI and rhoA.",
+     "A: 70\nI: 585",
+     {
+         {"A", Type::number, "m2", "", "cross-sectional area; with material", positive},
+         {"I", Type::number, "m4", "", "second moment of area; with material", positive},
+         {"fibre", Type::number, "m", "",
+          "distance of the extreme fibres from the line of centroids, for stresses (floe stress); with material",
+          positive},
+         {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
+         {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
+         {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},
+         {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I with material, 0 without",
+          nonnegative},
+         {"GA", Type::number, "N", "",
+          "shear stiffness kappa G A (Timoshenko beam); absent: no shear deformation (Euler-Bernoulli beam)", positive},
+     }},
+    "shape of the section, its height in the plane; absent: A and I, or EA, EI and rhoA are given");
 
 const SchemaSection material_section{"material",
                                      "Linear elastic material.",
@@ -309,6 +300,19 @@ const SchemaSection initial_section{
     }};
 
 }  // namespace
+
+SchemaSection with_shape(SchemaSection section, const std::string& text) {
+  const std::vector<Key> keys{
+      {"shape", Type::choice, "", "", text, any, {"rectangle", "circle", "tube", "box", "i"}},
+      {"width", Type::number, "m", "", "width of rectangle, box, i", positive},
+      {"height", Type::number, "m", "", "height of rectangle, box, i", positive},
+      {"radius", Type::number, "m", "", "radius of circle; outer radius of tube", positive},
+      {"wall", Type::number, "m", "", "wall thickness of tube, box; web thickness of i", positive},
+      {"flange", Type::number, "m", "", "flange thickness of i", positive}};
+  const auto A = std::find_if(section.keys.begin(), section.keys.end(), [](const Key& key) { return key.name == "A"; });
+  section.keys.insert(A, keys.begin(), keys.end());
+  return section;
+}
 
 const std::vector<SchemaSection>& body_sections() {
   static const std::vector<SchemaSection> all{body_section,     rigid_section,    mass_section,      mesh_section,

@@ -5,6 +5,9 @@ namespace floe::scene {
 
 // The grammar in parts, each in the order in which it is printed.
 
+/// A section of beams with the keys of its shape and their measures, before A. @param text  of the shape
+SchemaSection with_shape(SchemaSection section, const std::string& text);
+
 /// A body: its mesh, sections, frame, reduction, damping and start.
 const std::vector<SchemaSection>& body_sections();
 /// What joins, loads, moves and watches bodies.

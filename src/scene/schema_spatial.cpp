@@ -68,45 +68,34 @@ const SchemaSection part_section{"part",
                                       "spatial material"},
                                  }};
 
-const SchemaSection spatial_section_section{
-    "spatial section",
-    "Section of a body or part in a spatial scene. Shells: thickness, or plies. Beams: a shape with its dimensions, or "
-    "A, Iy, Iz and J.",
-    "shape: rectangle\nwidth: 0.02\nheight: 0.04\norientation: [0, 1, 0]",
-    {
-        {"thickness", Type::number, "m", "", "shells: thickness", positive},
-        {"plies", Type::pairs, "m, deg", "",
-         "shells: [thickness, angle] of each ply from the bottom; all of the same material"},
-        {"offset", Type::number, "m", "0", "shells: offset of the midsurface from the nodes along the normal"},
-        {"axis", Type::point, "", "",
-         "shells: direction of ply angle 0, projected onto each element; required for orthotropic materials"},
-        {"shape",
-         Type::choice,
-         "",
-         "",
-         "beams: shape of the section; width along y, height along z; absent: A, Iy, Iz and J are given",
-         any,
-         {"rectangle", "circle", "tube", "box", "i"}},
-        {"width", Type::number, "m", "", "width of rectangle, box, i", positive},
-        {"height", Type::number, "m", "", "height of rectangle, box, i", positive},
-        {"radius", Type::number, "m", "", "radius of circle; outer radius of tube", positive},
-        {"wall", Type::number, "m", "", "wall thickness of tube, box; web thickness of i", positive},
-        {"flange", Type::number, "m", "", "flange thickness of i", positive},
-        {"A", Type::number, "m2", "", "cross-sectional area of beams without shape", positive},
-        {"Iy", Type::number, "m4", "", "second moment of area, int z2 dA", positive},
-        {"Iz", Type::number, "m4", "", "second moment of area, int y2 dA", positive},
-        {"Iyz", Type::number, "m4", "0", "product moment of area, int y z dA"},
-        {"J", Type::number, "m4", "", "torsion constant", positive},
-        {"fibres", Type::pairs, "m", "",
-         "beams without shape: [y, z] of the extreme fibres from the centroid, for stresses (floe stress)"},
-        {"orientation", Type::point, "", "",
-         "beams: the local y axis lies in the plane of the beam axis and this vector; required for beams"},
-        {"centroid", Type::numbers, "m", "[0, 0]", "beams: [y, z] of the centroid relative to the line of the nodes"},
-        {"shear_factor", Type::numbers, "", "",
-         "beams: shear correction factors kappa of kappa G A (Timoshenko beam) along [y, z]; absent: no shear "
-         "deformation"},
-        {"wagner", Type::flag, "", "false", "beams: Wagner term, torsional stiffening by axial force"},
-    }};
+const SchemaSection spatial_section_section = with_shape(
+    {"spatial section",
+     "Section of a body or part in a spatial scene. Shells: thickness, or plies. Beams: a shape with its dimensions, "
+     "or A, Iy, Iz and J.",
+     "shape: rectangle\nwidth: 0.02\nheight: 0.04\norientation: [0, 1, 0]",
+     {
+         {"thickness", Type::number, "m", "", "shells: thickness", positive},
+         {"plies", Type::pairs, "m, deg", "",
+          "shells: [thickness, angle] of each ply from the bottom; all of the same material"},
+         {"offset", Type::number, "m", "0", "shells: offset of the midsurface from the nodes along the normal"},
+         {"axis", Type::point, "", "",
+          "shells: direction of ply angle 0, projected onto each element; required for orthotropic materials"},
+         {"A", Type::number, "m2", "", "cross-sectional area of beams without shape", positive},
+         {"Iy", Type::number, "m4", "", "second moment of area, int z2 dA", positive},
+         {"Iz", Type::number, "m4", "", "second moment of area, int y2 dA", positive},
+         {"Iyz", Type::number, "m4", "0", "product moment of area, int y z dA"},
+         {"J", Type::number, "m4", "", "torsion constant", positive},
+         {"fibres", Type::pairs, "m", "",
+          "beams without shape: [y, z] of the extreme fibres from the centroid, for stresses (floe stress)"},
+         {"orientation", Type::point, "", "",
+          "beams: the local y axis lies in the plane of the beam axis and this vector; required for beams"},
+         {"centroid", Type::numbers, "m", "[0, 0]", "beams: [y, z] of the centroid relative to the line of the nodes"},
+         {"shear_factor", Type::numbers, "", "",
+          "beams: shear correction factors kappa of kappa G A (Timoshenko beam) along [y, z]; absent: no shear "
+          "deformation"},
+         {"wagner", Type::flag, "", "false", "beams: Wagner term, torsional stiffening by axial force"},
+     }},
+    "beams: shape of the section; width along y, height along z; absent: A, Iy, Iz and J are given");
 
 const SchemaSection spatial_material_section{
     "spatial material",

@@ -177,7 +177,10 @@ PetscErrorCode note_event(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  if (!passed_since_event(ts, ts->time_step)) PetscFunctionReturn(0);
+  if (!passed_since_event(ts, ts->time_step)) {
+    data->forces_jump = PETSC_FALSE;  // A_before is that before another event, at which velocities may have jumped
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecCopy(data->A0, data->A_before));
   data->t_event = ts->ptime;
   data->after_event = PETSC_TRUE;

@@ -82,8 +82,7 @@ PetscErrorCode check_step(TS ts, PetscReal t, Vec U, PetscBool* accept) {
       throw RunError(fmt::format(
           "at t = {:.6g} the solution of the step rotates a node by {:.3g} rad (limit 3.14, half a revolution); take "
           "shorter steps or a tolerance, or let a sudden load grow within some steps: a moment on a node rotates it "
-          "the "
-          "more, the smaller its elements",
+          "the more, the smaller its elements",
           t, rotation));
     }
     const System::FailedConstraint failed_constraint = c->system.failed_constraint(t, U);

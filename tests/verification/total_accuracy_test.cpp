@@ -35,6 +35,23 @@ scene::Scene scene_of(Words words) {
   return scene::parse_scene(fill(cantilever, words), "scene");
 }
 
+scene::Scene strip(const std::string& elements, const std::string& step, const std::string& force) {
+  return scene::parse_scene(fill(R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: $elements, cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 2e9, nu: 0.3, rho: 1000}
+    reduction: {modes: 4}
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {end: {type: force, at: strip.right, force: [0, 0, "$force"]}}
+motion: {end: 0.4, step: $step, output: 8e-3}
+probes: {tip: {at: strip.right}, bend: {at: strip.right, quantity: rotation}}
+)yaml",
+                                 {{"elements", elements}, {"step", step}, {"force", force}}),
+                            "scene");
+}
+
 app::RunResult moved(const scene::Scene& scene, Formulation formulation) {
   app::RunPlan plan;
   plan.quiet = true, plan.check_range = false;
@@ -60,24 +77,12 @@ TEST_CASE("total accuracy: a selected model whose total is as required has no la
 // the mesh, of that from one on elements a quarter as long; of the model, of that from geometrically exact beams and
 // shells on the same mesh.
 TEST_CASE("total accuracy: each part of each probe is near the true one") {
-  const std::string strip = R"yaml(
-bodies:
-  strip:
-    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: [$elements, 2], cells: quadrilaterals}}
-    section: {thickness: 0.01}
-    material: {E: 2e9, nu: 0.3, rho: 1000}
-    reduction: {modes: 4}
-joints: {root: {type: fixed, between: [ground, strip.left]}}
-loads: {end: {type: force, at: strip.right, force: [0, 0, "4*sin(8*t)"]}}
-motion: {end: 0.4, step: $step, output: 8e-3}
-probes: {tip: {at: strip.right}, bend: {at: strip.right, quantity: rotation}}
-)yaml";
   const bool plane = GENERATE(true, false);
   const auto scene = [&](int times, int shorter) {
     const std::string elements = std::to_string((plane ? 8 : 6) * times),
                       step = number((plane ? 4e-3 : 8e-3) / shorter);
     return plane ? scene_of({{"elements", elements}, {"step", step}})
-                 : scene::parse_scene(fill(strip, {{"elements", elements}, {"step", step}}), "scene");
+                 : strip("[" + elements + ", 2]", step, "4*sin(8*t)");
   };
   app::RunPlan plan;
   plan.quiet = true, plan.check_range = false, plan.estimate = true;
@@ -205,24 +210,9 @@ probes: {tip: {at: beam.end, quantity: displacement}}
 
 // In one frame von Karman's strains are more than 6 % off.
 TEST_CASE("total accuracy: a strip of shells that bends far is divided into floating frames") {
-  const auto strip = [](const char* elements, const char* step) {
-    return scene::parse_scene(fill(R"yaml(
-bodies:
-  strip:
-    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: $elements, cells: quadrilaterals}}
-    section: {thickness: 0.01}
-    material: {E: 2e9, nu: 0.3, rho: 1000}
-    reduction: {modes: 4}
-joints: {root: {type: fixed, between: [ground, strip.left]}}
-loads: {end: {type: force, at: strip.right, force: [0, 0, "30*smooth(t, 0, 0.3)"]}}
-motion: {end: 0.4, step: $step, output: 8e-3}
-probes: {tip: {at: strip.right}}
-)yaml",
-                                   {{"elements", elements}, {"step", step}}),
-                              "scene");
-  };
-  const scene::Scene own = strip("[8, 2]", "8e-3");
-  const app::Series exact = moved(strip("[16, 4]", "4e-3"), Formulation::cfr).series;
+  const std::string force = "30*smooth(t, 0, 0.3)";
+  const scene::Scene own = strip("[8, 2]", "8e-3", force);
+  const app::Series exact = moved(strip("[16, 4]", "4e-3", force), Formulation::cfr).series;
   CHECK(app::vector_errors(moved(own, Formulation::nlffr).series, exact)[0] > 0.06);
   app::Chosen chosen = app::choose(own, {0.02, true}, PETSC_COMM_WORLD);
   CHECK(chosen.within());
