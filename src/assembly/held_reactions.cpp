@@ -38,7 +38,7 @@ Wrench on_nodes(const HeldReaction& reaction, double t, const Eigen::VectorXd& q
   if (reaction.nodes.empty()) return sum;
   const Eigen::Vector3d centre = position_of(reaction.place, q);
   for (const HeldReaction::OnNode& on : reaction.nodes) {
-    Wrench w = exerted({on.connection}, t, q, v);
+    Wrench w = on.share * exerted({on.connection}, t, q, v);
     const Eigen::Vector3d f = w.head<3>();
     w.tail<3>() += (position_of(on.node, q) - centre).cross(f);
     sum += w;
@@ -112,13 +112,19 @@ std::vector<int> joints_holding(const Plan& plan, int body) {
   return joints;
 }
 
-/// Dofs that several joints hold count for each of them in equal parts. Collective.
+/// Dofs that several joints hold count for each of them in equal parts; what a clamp holds, for clamps alone.
+/// Collective.
 HeldDofs held_dofs(const Plan& plan, int j) {
   const Anchor& place = *constrained_place(plan, static_cast<std::size_t>(j));
-  std::map<PetscInt, int> uses;
+  const auto clamp = [&](int joint) { return clamps(plan.scene.joints[static_cast<std::size_t>(joint)]); };
+  std::map<PetscInt, int> uses, clamped;
   for (const int other : joints_holding(plan, place.body))
-    for (const PetscInt dof : dofs_held_by(plan, other)) ++uses[dof];
-  const fem::Conditions dofs = dofs_held_by(plan, j);
+    for (const PetscInt dof : dofs_held_by(plan, other)) ++(clamp(other) ? clamped : uses)[dof];
+  fem::Conditions dofs = dofs_held_by(plan, j);
+  if (clamp(j))
+    uses = std::move(clamped);
+  else
+    std::erase_if(dofs, [&](PetscInt dof) { return clamped.contains(dof); });
   std::vector<PetscInt> nodes;
   for (const PetscInt dof : dofs) nodes.push_back(dof / 6);
   const std::vector<Eigen::Vector3d> x = fem::positions_of(plan.bodies[place.body].structure.mesh, nodes);
@@ -226,12 +232,18 @@ std::shared_ptr<const HeldReaction> SpatialAssembly::reaction_of_nodes(int j) {
   reaction->sign = plan_.scene.joints[j].second.ground() ? -1 : 1;
   reaction->coordinates = coordinates_.local_size();
   reaction->place = marker(*constrained_place(plan_, static_cast<std::size_t>(j)));
-  const std::vector<PlacedJoint> pieces = place_constrained_nodes(j);
-  const auto found = connections_.find(static_cast<std::size_t>(j));
-  if (found == connections_.end()) return reaction;
-  const std::size_t each = found->second.size() / pieces.size();  // rows, and what locks them again
-  for (std::size_t i = 0; i < found->second.size(); ++i)
-    reaction->nodes.push_back({found->second[i], pieces[i / each].places[1]});
+  for (const auto& [other, nodes] : constrained_nodes_) {
+    const std::vector<PlacedJoint> pieces = place_constrained_nodes(other);
+    const auto found = connections_.find(static_cast<std::size_t>(other));
+    if (found == connections_.end() || nodes.empty()) continue;
+    const std::size_t each = found->second.size() / nodes.size();  // rows, and what locks them again
+    for (std::size_t i = 0; i < found->second.size(); ++i) {
+      const ConstrainedNode& one = nodes[i / each];
+      if (std::find(one.joints.begin(), one.joints.end(), j) == one.joints.end()) continue;
+      reaction->nodes.push_back(
+          {found->second[i], pieces[i / each].places[1], 1. / static_cast<double>(one.joints.size())});
+    }
+  }
   return reaction;
 }
 

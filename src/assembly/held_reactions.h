@@ -25,10 +25,11 @@ struct HeldReaction {
     dynamics::SpatialMarker first, second, on_body;
   };
   std::vector<Acting> others;
-  /// Of a joint whose rows are those of single nodes: these rows, which act on the node.
+  /// Of a joint that holds single nodes: their rows, its own or those of another joint, which act on the node.
   struct OnNode {
     const dynamics::Connection* connection;
     dynamics::SpatialMarker node;
+    double share = 1;  ///< of the joint, where several hold the node
   };
   std::vector<OnNode> nodes;
   dynamics::SpatialMarker place;  ///< about which, likewise

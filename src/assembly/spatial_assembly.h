@@ -68,11 +68,14 @@ class SpatialAssembly {
 
   std::vector<std::vector<PetscInt>> clamped_edges(int body) const;
   /// Of joints that constrain nodes of a corotational body one by one: supports, and clamps of edges until they are
-  /// released. Which dofs, in the axes of the mesh.
+  /// released. Which dofs, in the axes of the mesh, and the joints whose reaction they are, in equal parts: edges may
+  /// have nodes in common, whose dofs are rows of one joint, of one that is not released if there is any.
   struct ConstrainedNode {
     PetscInt node;
     std::vector<int> dofs;
+    std::vector<int> joints;
   };
+  std::vector<ConstrainedNode> nodes_constrained_by(std::size_t joint, bool released) const;
   void find_constrained_nodes();
   std::vector<PlacedJoint> place_constrained_nodes(int joint);
   void add_corotated(int body);

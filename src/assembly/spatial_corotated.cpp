@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "floe/error.h"
 #include "floe/fem/shell.h"
@@ -89,36 +89,59 @@ bool SpatialAssembly::is_corotated_mean(const Anchor& place) const {
          is_mean(place, clamped_edges(place.body));
 }
 
+std::vector<SpatialAssembly::ConstrainedNode> SpatialAssembly::nodes_constrained_by(std::size_t j,
+                                                                                    bool released) const {
+  std::vector<ConstrainedNode> nodes;
+  const Anchor& place = *constrained_place(plan_, j);
+  const Pieces pieces = clamped_edges(place.body);
+  for (const AveragingWeight& weight : place.averaging_weights) {
+    const PetscInt node = place.rotates_apart() ? place.nodes.front() : weight.node;
+    const bool clamped = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+      return std::binary_search(piece.begin(), piece.end(), node);
+    });
+    if (!has_weight(weight) || clamped) continue;
+    ConstrainedNode one{node, {}, {}};
+    for (int dof = 0; dof < 6; ++dof)
+      if (released || plan_.scene.joints[j].hold[dof]) one.dofs.push_back(dof);
+    nodes.push_back(std::move(one));
+  }
+  return nodes;
+}
+
 void SpatialAssembly::find_constrained_nodes() {
   if (formulation_ != Formulation::cfr) return;
-  std::set<std::array<PetscInt, 3>> constrained;  // each dof once: edges may have nodes in common
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const Joint& joint = plan_.scene.joints[j];
-    const Anchor* place = constrained_place(plan_, j);
-    if (!place || place->body < 0 || !corotated(place->body)) continue;
-    const bool released =
-        clamps(joint) && is_unlocked(plan_.scene, joint.name) && !place->line && is_corotated_mean(*place);
-    if (joint.kind != Joint::Kind::support && !released) continue;
-    for (const Probe& probe : plan_.scene.probes)
-      if (probe.joint == joint.name && probe.quantity == Probe::Quantity::power)
-        throw InputError(
-            fmt::format("{}: measures the power of joint {}, which in formulation cfr constrains each node "
-                        "of its place; expected quantity: force or moment",
-                        probe.where.text(), joint.name));
-    std::vector<ConstrainedNode>& nodes = constrained_nodes_[static_cast<int>(j)];
-    const Pieces pieces = clamped_edges(place->body);
-    for (const AveragingWeight& weight : place->averaging_weights) {
-      const PetscInt node = place->rotates_apart() ? place->nodes.front() : weight.node;
-      const bool clamped = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-        return std::binary_search(piece.begin(), piece.end(), node);
-      });
-      if (!has_weight(weight) || clamped) continue;
-      ConstrainedNode one{node, {}};
-      for (int dof = 0; dof < 6; ++dof)
-        if ((released || joint.hold[dof]) && constrained.insert({place->body, node, dof}).second)
-          one.dofs.push_back(dof);
-      if (!one.dofs.empty()) nodes.push_back(std::move(one));
+  using Dof = std::array<PetscInt, 3>;
+  std::map<Dof, std::vector<int>> joints_of;
+  for (const bool released : {false, true})
+    for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+      const Joint& joint = plan_.scene.joints[j];
+      const Anchor* place = constrained_place(plan_, j);
+      if (!place || place->body < 0 || !corotated(place->body)) continue;
+      if (released !=
+          (clamps(joint) && is_unlocked(plan_.scene, joint.name) && !place->line && is_corotated_mean(*place)))
+        continue;
+      if (!released && joint.kind != Joint::Kind::support) continue;
+      for (const Probe& probe : plan_.scene.probes)
+        if (probe.joint == joint.name && probe.quantity == Probe::Quantity::power)
+          throw InputError(
+              fmt::format("{}: measures the power of joint {}, which in formulation cfr constrains each node "
+                          "of its place; expected quantity: force or moment",
+                          probe.where.text(), joint.name));
+      constrained_nodes_[static_cast<int>(j)] = nodes_constrained_by(j, released);
+      for (const ConstrainedNode& one : constrained_nodes_[static_cast<int>(j)])
+        for (const int dof : one.dofs) joints_of[{place->body, one.node, dof}].push_back(static_cast<int>(j));
     }
+  for (auto& [j, nodes] : constrained_nodes_) {
+    std::vector<ConstrainedNode> own;
+    for (const ConstrainedNode& one : nodes)
+      for (const int dof : one.dofs) {
+        const std::vector<int>& joints = joints_of.at({constrained_place(plan_, j)->body, one.node, dof});
+        if (joints.front() != j) continue;
+        if (own.empty() || own.back().node != one.node || own.back().joints != joints)
+          own.push_back({one.node, {}, joints});
+        own.back().dofs.push_back(dof);
+      }
+    nodes = std::move(own);
   }
 }
 

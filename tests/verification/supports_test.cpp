@@ -194,3 +194,29 @@ motion: {end: 0.1, step: 1e-3}
       CHECK(held[column].back() == Approx(-ground[column].back()).epsilon(1e-9));
   }
 }
+
+// Nodes in common count in equal parts, in whatever order the joints are; those of a clamp for the clamp alone.
+TEST_CASE("supports: reactions where edges meet do not depend on the order of joints and the formulation") {
+  const std::string edge[] = {support("plate.left", "z"), support("plate.right", "z"), support("plate.bottom", "z"),
+                              support("plate.top", "z")},
+                    clamp = "  left: {type: fixed, between: [ground, plate.left]}\n";
+  const auto reactions = [&](const std::string& joints, Formulation formulation) {
+    const bool all = joints.find("right:") != std::string::npos;
+    const History at = rest(plate(joints, std::string("loads: {p: {type: pressure, body: plate, pressure: 1}}\n"
+                                                      "probes: {left: {joint: left}, bottom: {joint: bottom}, ") +
+                                              (all ? "right: {joint: right}, " : "") + "top: {joint: top}}\n"),
+                            formulation);
+    return Eigen::Vector4d(at["left.z"][0], all ? at["right.z"][0] : 0, at["bottom.z"][0], at["top.z"][0]);
+  };
+  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
+    INFO(scene::name_of(formulation));
+    const Eigen::Vector4d one = reactions(edge[0] + edge[1] + edge[2] + edge[3] + centre, formulation),
+                          other = reactions(edge[3] + edge[0] + edge[2] + edge[1] + centre, formulation);
+    CHECK((one + Eigen::Vector4d::Constant(0.25)).norm() < 1e-3);  // a square
+    CHECK((one - other).norm() < 1e-9);
+  }
+  const Eigen::Vector4d whole = reactions(clamp + edge[2] + edge[3], Formulation::nlffr);
+  CHECK(std::abs(whole[0]) > 0.1);
+  CHECK((reactions(clamp + edge[2] + edge[3], Formulation::vm_md) - whole).norm() < 1e-3);
+  CHECK((reactions(edge[3] + edge[2] + clamp, Formulation::cfr) - whole).norm() < 0.01);
+}
