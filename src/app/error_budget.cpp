@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double limit = 0.01;  // above it the largest part is warned of
+constexpr double greatest = 0.01;  // above it the largest part is warned of
 constexpr const char* parts[] = {"reduction", "model", "mesh", "step"};
 
 /// `probes` of those that are known.
@@ -99,7 +99,7 @@ std::string advice(int part, const assess::FinishedMotion& motion, const assess:
       return "take more elements";
     default:
       return std::isfinite(error)
-                 ? fmt::format("take motion.step {:.2g} s or less", motion.how.step * std::sqrt(limit / error))
+                 ? fmt::format("take motion.step {:.2g} s or less", motion.how.step * std::sqrt(greatest / error))
                  : "take a shorter motion.step";
   }
 }
@@ -113,11 +113,11 @@ void put_largest(const assess::FinishedMotion& motion, const assess::ErrorPart* 
   for (int i = 0; i < 4; ++i)
     for (std::size_t p = 0; all[i]->none.empty() && p < all[i]->probes.size(); ++p)
       if (all[i]->probes[p] > error) largest = i, worst = p, error = all[i]->probes[p];
-  if (!(error > limit)) return;
+  if (!(error > greatest)) return;
   const std::string what = advice(largest, motion, *all[1], error), &probe = motion.model.probes[worst].name;
   j["largest"] = {{"part", parts[largest]}, {"probe", probe}, {"advice", what}};
   result.warnings.push_back(fmt::format("largest part of the estimated error: {} of probe {}, {} (limit {}); {}",
-                                        parts[largest], probe, math::percent(error), math::percent(limit), what));
+                                        parts[largest], probe, math::percent(error), math::percent(greatest), what));
 }
 
 /// Rigid bodies have no error but that of the step, unless a selection made them rigid.

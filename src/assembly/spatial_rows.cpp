@@ -35,15 +35,15 @@ void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& p
       frames_.emplace(place.coordinates[0], frame);
     }
     for (std::size_t i = 0; i < place.coordinates.size(); ++i) {
-      const int at = seen(place.coordinates[i]);
+      const int own = seen(place.coordinates[i]);
       if (place.framed() && i < 6) {
-        moves_[at] = 1;
-        reach_[at] = 1e-2 / (i < 3 ? plan_.extent : 1);
+        moves_[own] = 1;
+        reach_[own] = 1e-2 / (i < 3 ? plan_.extent : 1);
         continue;
       }
       const Index column = static_cast<Index>(i) - (place.framed() ? 6 : 0);
-      reach_[at] = std::max(reach_[at], place.S.col(column).norm() / plan_.extent + place.psi.col(column).norm());
-      greatest_reach_ = std::max(greatest_reach_, reach_[at]);
+      reach_[own] = std::max(reach_[own], place.S.col(column).norm() / plan_.extent + place.psi.col(column).norm());
+      greatest_reach_ = std::max(greatest_reach_, reach_[own]);
     }
   }
   for (const dynamics::SpatialRow& row : constraint.rows)

@@ -193,6 +193,7 @@ namespace {
 /// Whether all strains of elements of the section are of second order, so that they take the arms of rigid links.
 bool second_order(const Section& section) {
   if (const auto* shell = std::get_if<ShellSection>(&section)) return shell->strains == Strains::second_order;
+  if (const auto* spring = std::get_if<NodeSpring>(&section)) return spring->kind != mesh::SpringKind::linear;
   const auto* beam = std::get_if<SpatialBeam>(&section);
   return beam && beam->strain.strains == Strains::second_order;
 }

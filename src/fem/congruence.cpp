@@ -39,7 +39,7 @@ bool same(const PointMass& a, const PointMass& b) {
 }
 
 bool same(const NodeSpring& a, const NodeSpring& b) {
-  return a.stiffness == b.stiffness && near(a.axes, b.axes) && a.at == b.at;
+  return a.stiffness == b.stiffness && near(a.axes, b.axes) && a.at == b.at && a.kind == b.kind;
 }
 
 bool same(const Section& a, const Section& b) {

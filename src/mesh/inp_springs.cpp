@@ -5,6 +5,7 @@
 
 #include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
+#include "springs.h"
 #include "text.h"
 
 namespace floe::mesh {
@@ -48,18 +49,13 @@ namespace {
 std::optional<NodeSpring> between(const InpSpring& spring, const InpUse& use, const Eigen::Vector3d& along,
                                   double extent, Faults& faults) {
   const std::string name = "spring " + std::to_string(spring.label);
-  NodeSpring result{{}, {}, Eigen::Matrix3d::Identity(), 0.5, spring.label};
   constexpr double coincident = 1e-5;  // of the extent
   if (spring.axial) {
     if (!(along.norm() > coincident * extent)) {
       faults.add(spring.where, name + " has no length");
       return std::nullopt;
     }
-    result.axes.col(0) = along.normalized();
-    result.axes.col(1) = result.axes.col(0).unitOrthogonal();
-    result.axes.col(2) = result.axes.col(0).cross(result.axes.col(1));
-    result.stiffness[0] = use.amount;
-    return result;
+    return line_spring(along, use.amount, spring.label);
   }
   const auto [first, second] = use.directions;
   if (first == 0 || first != second) {
@@ -78,6 +74,8 @@ std::optional<NodeSpring> between(const InpSpring& spring, const InpUse& use, co
                            name, across, first));
     return std::nullopt;
   }
+  if (first <= 3 && along.norm() > coincident * extent) return line_spring(along, use.amount, spring.label);
+  NodeSpring result{{}, {}, Eigen::Matrix3d::Identity(), 0.5, spring.label};
   result.stiffness[static_cast<std::size_t>(first) - 1] = use.amount;
   return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nas_build.h"
+#include "springs.h"
 #include "text.h"
 
 namespace floe::mesh {
@@ -10,15 +11,6 @@ namespace {
 
 std::string name_of(const NasSpring& spring) {
   return (spring.scalar() ? "spring " : "CBUSH ") + std::to_string(spring.id);
-}
-
-/// A direction and two normal to it.
-Eigen::Matrix3d axes_along(const Eigen::Vector3d& first) {
-  Eigen::Matrix3d axes;
-  axes.col(0) = first.normalized();
-  axes.col(1) = axes.col(0).unitOrthogonal();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes;
 }
 
 }  // namespace
@@ -73,7 +65,6 @@ std::optional<NodeSpring> NasBuild::scalar_spring(const NasSpring& spring, const
         fmt::format("its grids are {:.3g} apart across direction {}; expected grids at one point or along "
                     "it, or CBUSH",
                     across.norm(), first));
-  NodeSpring result{{}, {}, axes_along(e[0]), 0.5, spring.id};
   double stiffness = spring.stiffness;
   if (spring.property > 0) {
     const auto found = model_.scalar_stiffness.find(spring.property);
@@ -84,6 +75,8 @@ std::optional<NodeSpring> NasBuild::scalar_spring(const NasSpring& spring, const
     }
     stiffness = found->second;
   }
+  if (first <= 3 && (x[1] - x[0]).norm() > coincident * extent()) return line_spring(x[1] - x[0], stiffness, spring.id);
+  NodeSpring result{{}, {}, axes_along(e[0]), 0.5, spring.id};
   result.stiffness[first <= 3 ? 0 : 3] = stiffness;
   return result;
 }

@@ -6,14 +6,14 @@
 namespace floe::plan {
 namespace {
 
-/// Stiffnesses, axes, place: springs that have the same are one part.
-using SpringKey = std::array<double, 16>;
+/// Stiffnesses, axes, place, kind: springs that have the same are one part.
+using SpringKey = std::array<double, 17>;
 
 SpringKey key_of(const mesh::NodeSpring& spring) {
   SpringKey key;
   std::copy(spring.stiffness.begin(), spring.stiffness.end(), key.begin());
   Eigen::Map<Eigen::Matrix3d>(key.data() + 6) = spring.axes;
-  key.back() = spring.at;
+  key[15] = spring.at, key[16] = static_cast<double>(spring.kind);
   return key;
 }
 
@@ -21,7 +21,7 @@ fem::NodeSpring section_of(const SpringKey& key) {
   fem::NodeSpring section;
   section.stiffness = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(key.data());
   section.axes = Eigen::Map<const Eigen::Matrix3d>(key.data() + 6);
-  section.at = key.back();
+  section.at = key[15], section.kind = static_cast<mesh::SpringKind>(static_cast<int>(key[16]));
   return section;
 }
 

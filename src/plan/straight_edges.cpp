@@ -91,7 +91,8 @@ void add_springs_of(const Joint& joint, const Edge& edge, int component, double 
   const double L = (edge.x.back() - edge.x.front()).norm();
   for (std::size_t i = 1; i < edge.nodes.size(); ++i) {
     const double l = (edge.x[i] - edge.x[i - 1]).norm(), k = factor * stiffness * L / l;
-    mesh::NodeSpring spring{{edge.nodes[i - 1], edge.nodes[i]}, {}, Eigen::Matrix3d::Identity(), 0.5, 0};
+    mesh::NodeSpring spring{
+        {edge.nodes[i - 1], edge.nodes[i]}, {}, Eigen::Matrix3d::Identity(), 0.5, 0, mesh::SpringKind::linear};
     spring.axes.col(0) = e, spring.axes.col(1) = edge.along, spring.axes.col(2) = e.cross(edge.along);
     spring.stiffness[0] = k, spring.stiffness[5] = k * L * L;
     springs.push_back(spring);

@@ -242,12 +242,17 @@ std::unique_ptr<CorotationalElement> CorotationalBody::element(const fem::Mesh::
   return std::make_unique<CorotationalElement>(kind, std::move(at), x, std::move(elasticity), viscosity);
 }
 
-/// The linear spring between two nodes in axes that rotate with the first one (fem::node_spring for small rotations).
+/// The linear spring between two nodes, of its length or in axes that rotate with the first one (fem::node_spring for
+/// moderate rotations).
 std::unique_ptr<dynamics::Term> CorotationalBody::spring(const fem::Mesh::Cell& cell, double viscosity) const {
   const auto& own = std::get<fem::NodeSpring>(structure_.sections[cell.part]);
   std::vector<SpatialMarker> at = places(cell);
   if (one_frame(at)) return nullptr;
   const Vector3d along = structure_.mesh.positions[cell.place[1]] - structure_.mesh.positions[cell.place[0]];
+  if (own.kind == mesh::SpringKind::line) {
+    dynamics::SpatialSpringProperties line{own.stiffness[0], viscosity * own.stiffness[0], along.norm()};
+    return std::make_unique<dynamics::SpatialSpring>(std::move(at[0]), std::move(at[1]), line);
+  }
   at[0].x0 += own.at * along, at[1].x0 += (own.at - 1) * along;
   at[0].D0 = at[1].D0 = own.axes;
   dynamics::BushingProperties properties;

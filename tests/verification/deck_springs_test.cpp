@@ -60,3 +60,74 @@ TEST_CASE("springs of decks: an elastic joint rotated by 1 rad, corotational") {
   CHECK(at["tip.x"].back() == Approx(0.25 + 0.75 * std::cos(1.)).epsilon(1e-6));
   CHECK(at["tip.y"].back() == Approx(0.75 * std::sin(1.)).epsilon(1e-6));
 }
+
+namespace {
+
+/// A bush over a gap of 0.3 m between two beams, of 0.25 and of 0.75 m, that are nearly rigid.
+std::string gap_deck() {
+  std::string text = "BEGIN BULK\nMAT1,1,1.+14,,0.3,2700.\nPBAR,1,1,4.E-4,2.E-8,2.E-8,2.E-8\n";
+  for (int i = 0; i <= 2; ++i) text += fmt::format("GRID,{},,{:.4f},0.,0.\n", i + 1, i / 8.);
+  for (int i = 0; i <= 6; ++i) text += fmt::format("GRID,{},,{:.4f},0.,0.\n", i + 11, 0.55 + i / 8.);
+  for (int i : {1, 2, 11, 12, 13, 14, 15, 16}) text += fmt::format("CBAR,{0},1,{0},{1},0.,1.,0.\n", i, i + 1);
+  return text + "CBUSH,30,9,3,11,0.,1.,0.\nPBUSH,9,K,1.E8,1.E8,1.E8,50.,50.,50.\nENDDATA\n";
+}
+
+/// A beam of 1 m and, beside it, a spring between its ends that takes nearly all of a tension.
+std::string strut_deck(const std::string& spring) {
+  std::string text = "*NODE\n";
+  for (int i = 0; i <= 16; ++i) text += fmt::format("{}, {:.6f}, 0, 0\n", i + 1, i / 16.);
+  text += "*ELEMENT, TYPE=B31, ELSET=E\n";
+  for (int i = 1; i <= 16; ++i) text += fmt::format("{0}, {0}, {1}\n", i, i + 1);
+  return text + "*ELEMENT, TYPE=" + spring +
+         "*MATERIAL, NAME=M\n*ELASTIC\n7e10, 0.3\n*DENSITY\n2700\n*BEAM SECTION, ELSET=E, SECTION=RECT, "
+         "MATERIAL=M\n0.01, 0.01\n0, 1, 0\n";
+}
+
+}  // namespace
+
+// k_r theta = F a - N a theta: what is carried at an arm a of the joint straightens under tension.
+TEST_CASE("springs of decks: an elastic joint over a gap is stiffened by tension") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "gap.bdf").string();
+  write_text(deck, gap_deck());
+  const double a = 0.9, N = 100;
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    const History at = rest(fill(R"yaml(
+bodies:
+  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
+joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
+loads: {tip: {type: force, at: {body: b, node: [1.3, 0, 0]}, force: [$N, 0.1, 0]}}
+motion: {end: 1, step: 1}
+probes: {tip: {at: {body: b, node: [1.3, 0, 0]}, quantity: rotation}}
+)yaml",
+                                 {{"deck", deck}, {"N", number(N)}}),
+                            formulation);
+    CHECK(at["tip.rz"].back() == Approx(0.1 * a / (50 + N * a)).epsilon(1e-3));
+  }
+}
+
+// A string beside a beam: F/w = T/L + P/(L (1 - tanh(s)/s)), s = L sqrt(P/EI), of the tension N = T + P.
+TEST_CASE("springs of decks: a spring along a line follows its ends") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "strut.inp").string(),
+                    spring = GENERATE(std::string("SPRINGA, ELSET=S\n99, 1, 17\n*SPRING, ELSET=S\n\n1e8\n"),
+                                      std::string("SPRING2, ELSET=S\n99, 1, 17\n*SPRING, ELSET=S\n1, 1\n1e8\n"));
+  write_text(deck, strut_deck(spring));
+  const double EI = 7e10 * 1e-8 / 12, EA = 7e6, N = 1000, T = N * 1e8 / (1e8 + EA), P = N - T, s = std::sqrt(P / EI);
+  const double expected = 0.1 / (T + P / (1 - std::tanh(s) / s));
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    const History at = rest(fill(R"yaml(
+bodies:
+  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
+joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
+loads: {tip: {type: force, at: {body: b, node: [1, 0, 0]}, force: [$N, 0, 0.1]}}
+motion: {end: 1, step: 1}
+probes: {tip: {at: {body: b, node: [1, 0, 0]}, quantity: displacement}}
+)yaml",
+                                 {{"deck", deck}, {"N", number(N)}}),
+                            formulation);
+    CHECK(at["tip.z"].back() == Approx(expected).epsilon(2e-3));
+  }
+}

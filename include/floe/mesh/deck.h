@@ -89,6 +89,13 @@ struct BeamSection {
   double torsion_modulus = 0;             // likewise, fem::SectionShape::W
 };
 
+/// What a spring between two nodes measures where these rotate (fem::NodeSpring).
+enum class SpringKind {
+  bushing,  ///< motions along and about axes that rotate with the first node
+  line,     ///< its length
+  linear    ///< small motions along and about axes that stand still
+};
+
 /// A linear spring between two nodes, about the point that divides the way from the first to the second.
 struct NodeSpring {
   std::array<PetscInt, 2> nodes;
@@ -96,6 +103,7 @@ struct NodeSpring {
   Eigen::Matrix3d axes;  // columns
   double at = 0.5;
   long long label = 0;
+  SpringKind kind = SpringKind::bushing;
 };
 
 /// *MASS at a node.
