@@ -121,6 +121,11 @@ void warn_of_files(ReducedBodies& all) {
           body.report.name, body.report.file, body.report.file_version));
 }
 
+/// Reactions of supports need what the elastic force was condensed over.
+bool measures_reactions(const Scene& scene) {
+  return std::any_of(scene.probes.begin(), scene.probes.end(), [](const Probe& probe) { return !probe.joint.empty(); });
+}
+
 ReducedBodies reduced_bodies(Offline& offline, Formulation formulation, bool keep_offline = false) {
   const Plan& plan = offline.plan;
   ReducedBodies all{formulation, plan.comm, std::vector<ReducedBody>(plan.bodies.size()), {}};
@@ -136,8 +141,10 @@ ReducedBodies reduced_bodies(Offline& offline, Formulation formulation, bool kee
       add_residual_responses(offline, all.warnings);
       all.bodies = std::exchange(offline.reduced, {});
     }
-    for (ReducedBody& body : all.bodies)
-      if (!keep_offline) body.statics.reset(), body.relief = {};
+    for (ReducedBody& body : all.bodies) {
+      if (!keep_offline) body.statics.reset();
+      if (!keep_offline && !measures_reactions(plan.scene)) body.relief = {};
+    }
     return all;
   }
   for (std::size_t b = 0; b < all.bodies.size(); ++b)

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "floe/assembly/body_stage.h"
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/local_indices.h"
@@ -141,7 +142,9 @@ HeldDofs held_dofs(const Plan& plan, int j) {
   return held;
 }
 
-/// The body on its basis and the static fields of the six motions of a joint's place. Collective.
+/// The body on its basis and the static fields of the six motions of a joint's place, with the stresses of its elastic
+/// force: condensed over the same displacements. These and the basis vanish where joints hold the body, so that the
+/// fields are orthogonal to them in K and change nothing of the condensation. Collective.
 ReducedBody with_fields(const PlannedBody& body, const ReducedBody& reduced, const HeldDofs& held) {
   const fem::Structure& structure = body.structure;
   reduction::Columns moved;
@@ -169,6 +172,11 @@ ReducedBody with_fields(const PlannedBody& body, const ReducedBody& reduced, con
   ReducedBody all;
   all.body = reduction::project(structure, *basis);
   all.basis = std::move(basis);
+  all.relief.W = reduced.relief.W;
+  if (body.spec.reduction.linear)
+    all.body.elasticity = body::linearised(all.body.elasticity);
+  else
+    condense(body, all);
   return all;
 }
 

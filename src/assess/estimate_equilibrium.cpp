@@ -43,6 +43,15 @@ class FullOrder {
   const Model& model() const { return full_; }
   std::vector<double> values() const { return probe_values(full_, t_, U_, V_, V_); }
 
+  /// Those of the reduced model itself: forces of the state lifted to full order, which is not in equilibrium, are
+  /// others (of supports, and stresses).
+  std::vector<double> reduced_values(const State& state) const {
+    const dynamics::System& system = *reduced_.system;
+    const petsc::VecHandle U = system.create_vector(), none = system.create_vector();
+    solve::set_state(system, state, U, none, none);
+    return probe_values(reduced_, state.t, U, none, none);
+  }
+
   /// Takes over a reduced equilibrium.
   void put(const State& state) {
     t_ = state.t;
@@ -184,7 +193,7 @@ Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& rotat
            Estimate& estimate) {
   full.put(state);
   full.take_up(rotations);
-  const std::vector<double> was = full.values();
+  const std::vector<double> was = full.reduced_values(state);
   Gap gap;
   VectorXd d;
   gap.t = state.t;

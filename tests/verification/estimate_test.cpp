@@ -249,6 +249,24 @@ probes:
                     {Formulation::vm, Formulation::vm_md});
 }
 
+// Their energy is condensed; forces at a support are those of the condensed energy.
+TEST_CASE("estimate: reactions of a support of a beam of second order") {
+  check_effectivity("beam on a support", R"yaml(
+bodies:
+  b:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 12}}
+    section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints: {r: {type: support, between: [ground, b.start], hold: [x, y, z, rx, ry, rz]}}
+loads: {q: {type: distributed, body: b, force: [0, "20*sin(40*t)", "200*sin(60*t)"]}}
+motion: {end: 0.05, step: 1e-3}
+probes:
+  R: {joint: r, quantity: force}
+  M: {joint: r, quantity: moment}
+)yaml",
+                    {Formulation::vm_md});
+}
+
 // On fine meshes what beams of second order have of third and higher order weighs as 1/h^2: explicit basis vectors of
 // the estimate, or residual responses, locked by their products with the deformation (estimates of 3.6 % for 0.3 %, 17
 // % for 1 % on four times as many elements; errors of 4 and 6 % with 8 responses).

@@ -129,3 +129,27 @@ TEST_CASE("static estimate: none for full-order models") {
   const assembly::Model model = assembly::build(scene, Formulation::nlffr, PETSC_COMM_WORLD, true);
   CHECK(assess::estimate_error_at_rest(model, {}, 1).none == "it applies to reduced models only (vm, vm+md)");
 }
+
+// The sum of loads and reactions vanishes in both models; the moment of a clamped beam depends on its deflection.
+TEST_CASE("estimate at rest: reactions of supports, from the forces of the reduced model") {
+  const std::string probes = "probes: {R: {joint: root, quantity: force}, M: {joint: root, quantity: moment}}\n",
+                    joint = "joints: {root: {type: support, between: [ground, $at], hold: [x, y, z, rx, ry, rz]}}\n",
+                    beam = fill(
+                        "bodies:\n  b:\n"
+                        "    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 12}}\n"
+                        "    section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 1, 0]}\n"
+                        "    material: {E: 7e10, nu: 0.3, rho: 2700}\n" +
+                            joint + "loads: {q: {type: distributed, body: b, force: [0, \"20*t\", \"300*t\"]}}\n" +
+                            probes,
+                        {{"at", "b.start"}});
+  check_effectivity("beam", beam, 0.8, 1.25);
+  const Estimated reduced = rest_and_estimate(beam, Formulation::vm_md, 2);
+  CHECK(reduced.estimate.probes[0] < 1e-8);
+  check_effectivity("plate",
+                    fill("bodies:\n  b:\n"
+                         "    mesh: {plate: {along: [0.4, 0, 0], across: [0, 0.3, 0], elements: [6, 4]}}\n"
+                         "    section: {thickness: 0.003}\n    material: {E: 7e10, nu: 0.3, rho: 2700}\n" +
+                             joint + "loads: {q: {type: pressure, body: b, pressure: \"1000*t\"}}\n" + probes,
+                         {{"at", "b.left"}}),
+                    0.8, 1.25);
+}
