@@ -176,6 +176,39 @@ void tie_idle_rotations(std::vector<DependentNode>& all, const Points& points, c
 
 }  // namespace
 
+std::vector<DependentNode> led_by_elements(const RawMesh& mesh, std::vector<DependentNode> all,
+                                           const std::vector<PetscInt>& kept) {
+  std::vector<PetscInt> used;
+  for (const Cell& cell : mesh.cells)
+    if (has_extent(cell.kind)) used.insert(used.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+  const std::vector<PetscInt> with_elements = of_links(mesh, all, std::move(used));
+  const auto has = [](const std::vector<PetscInt>& nodes, PetscInt node) {
+    return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+  };
+  std::map<PetscInt, std::vector<PetscInt>> regions;  // nodes with elements, by the independent node
+  std::set<PetscInt> loose;
+  for (const DependentNode& link : all) {
+    if (link.spins()) loose.insert(link.independent_node);
+    if (has(with_elements, link.node)) regions[link.independent_node].push_back(link.node);
+  }
+  std::map<PetscInt, PetscInt> leader;
+  for (const auto& [node, others] : regions) {
+    if (others.empty() || loose.contains(node) || has(with_elements, node) || has(kept, node)) continue;
+    const std::vector<Eigen::Vector3d> x = positions_of(mesh, others);
+    const double small = 1e-9 * x.front().norm();
+    if (std::all_of(x.begin(), x.end(), [&](const Eigen::Vector3d& at) { return (at - x.front()).norm() <= small; }))
+      leader[node] = others.front();
+  }
+  for (DependentNode& link : all) {
+    const auto found = leader.find(link.independent_node);
+    if (found == leader.end()) continue;
+    if (link.node == found->second) link.node = found->first;
+    link.independent_node = found->second;
+  }
+  std::sort(all.begin(), all.end(), [](const DependentNode& a, const DependentNode& b) { return a.node < b.node; });
+  return all;
+}
+
 PetscInt independent_node_of(const std::vector<DependentNode>& dependent_nodes, PetscInt node) {
   const DependentNode* found = find(dependent_nodes, node);
   return found ? found->independent_node : node;

@@ -23,6 +23,7 @@
 #include "floe/scene/places.h"
 #include "hinge_lines.h"
 #include "point_masses.h"
+#include "rigid_regions.h"
 #include "straight_edges.h"
 
 namespace floe::plan {
@@ -281,44 +282,6 @@ mesh::NodeSets places_of(const mesh::RawMesh& mesh) {
   return places;
 }
 
-/// Places of the body that its joints hold as one rigid piece each.
-std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body, const mesh::NodeSets& places) {
-  std::vector<std::vector<PetscInt>> pieces;
-  for (const Joint& joint : scene.joints)
-    for (const Place* place : {&joint.first, &joint.second}) {
-      if (body.rigid || place->body != body.name || !holds_a_piece(joint)) continue;
-      const auto found = places.find(place->name);
-      if (found != places.end() && found->second.nodes.size() > 1) pieces.push_back(found->second.nodes);
-    }
-  return pieces;
-}
-
-/// Nodes that links of a deck leave rotations of their own are no part of an edge that a joint holds as one, rigid or
-/// as a line hinge, nor do supports hold their rotations.
-void refuse_loose_edges(const Scene& scene, const Body& body, const std::vector<mesh::DependentNode>& links,
-                        const mesh::NodeSets& places, const mesh::RawMesh& mesh) {
-  std::vector<PetscInt> loose;
-  for (const mesh::DependentNode& link : links)
-    if (link.spins()) loose.push_back(link.node);
-  std::vector<std::string> faults;
-  for (const Joint& joint : scene.joints)
-    for (const Place* place : {&joint.first, &joint.second}) {
-      const auto found = places.find(place->name);
-      if (body.rigid || place->body != body.name || place->point || found == places.end()) continue;
-      const bool rotations = joint.kind == Joint::Kind::support &&
-                             std::any_of(joint.hold.begin() + 3, joint.hold.end(), [](bool hold) { return hold; });
-      if (found->second.nodes.size() < 2 || (joint.edges == Joint::Edges::mean && !rotations)) continue;
-      if (std::none_of(found->second.nodes.begin(), found->second.nodes.end(),
-                       [&](PetscInt node) { return std::binary_search(loose.begin(), loose.end(), node); }))
-        continue;
-      faults.push_back(fmt::format(
-          "{}: its place {}.{} has nodes whose rotations a link of {} leaves free; expected a "
-          "place without them, or {}",
-          joint.where.text(), place->body, place->name, mesh.source, rotations ? "no rotations held" : "edges: mean"));
-    }
-  if (!faults.empty()) throw InputError(faults);
-}
-
 /// The place `middle` of what is one line from start to end. Collective.
 void add_middle(const Body& body, SpatialMesh& found) {
   if (body.mesh.piece || !has_middle(body.mesh)) return;
@@ -343,6 +306,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   if (has_straight_edges(scene, body))
     add_straight_edges(scene, body, places, membrane_stiffness(sections_of(body, source)), source.mesh, source.parts);
   refuse_loose_edges(scene, body, source.dependent_nodes, places, source.mesh);
+  source.dependent_nodes = well_led(scene, body, source.mesh, source.dependent_nodes, places);
   std::vector<std::string> left_out;
   source.dependent_nodes =
       mesh::with_lines(mesh::with_pieces(source.dependent_nodes, rigid_pieces(scene, body, places)),

@@ -1,0 +1,42 @@
+// Rigid links of decks that act at an arm across a beam.
+#include <catch2/catch.hpp>
+
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// A blade of 1 m along x with a node 0.1 m above its end, by a rigid link whose independent node this is.
+std::string armed_deck(int elements) {
+  std::string text = "BEGIN BULK\nMAT1,1,7.+10,,0.,2700.\nPBAR,2,1,8.-4,2.66667-6,1.06667-9,4.-9\n";
+  for (int i = 0; i <= elements; ++i) text += fmt::format("GRID,{},,{:.6f},0.,0.\n", i + 1, double(i) / elements);
+  for (int i = 1; i <= elements; ++i) text += fmt::format("CBAR,{0},2,{0},{1},0.,1.,0.\n", i, i + 1);
+  return text + fmt::format("GRID,999,,1.,0.,0.1\nRBE2,77,999,123456,{}\nENDDATA\n", elements + 1);
+}
+
+}  // namespace
+
+// The moment of a force at the arm against its tension: the end rotates by M/sqrt(N EI) tanh(L sqrt(N/EI)), M = N h, to
+// second order. An element at an arm of the node that leads it resisted the rotation, with shorter elements more.
+TEST_CASE("rigid links: an arm across a beam does not stiffen it, whatever the elements") {
+  const Scratch scratch;
+  const int elements = GENERATE(12, 96);
+  const std::string deck = (scratch.path / "armed.bdf").string();
+  write_text(deck, armed_deck(elements));
+  const double EI = 7e10 * 1.06667e-9, N = 60, expected = 0.1 * std::sqrt(N / EI) * std::tanh(std::sqrt(N / EI));
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation) << " " << elements);
+    const History at = rest(fill(R"yaml(
+bodies: {b: {mesh: {file: {path: $deck}}, reduction: {modes: 8, attachment: all}}}
+joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
+loads: {pull: {type: force, at: {body: b, node: [1, 0, 0.1]}, force: [$N, 0, 0]}}
+motion: {end: 1, step: 1}
+probes: {end: {at: {body: b, node: [1, 0, 0]}, quantity: rotation}}
+)yaml",
+                                 {{"deck", deck}, {"N", number(N)}}),
+                            formulation);
+    CHECK(at["end.ry"].back() == Approx(expected).epsilon(5e-3));
+  }
+}
