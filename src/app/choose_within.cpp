@@ -86,7 +86,8 @@ class Search {
                       too_low > 1e4 ? "more than 10000" : fmt::format("up to {:.2g}", too_low));
   }
 
-  double estimate_of(const RunResult& result) const {
+  /// Where impulses change velocities, the difference to the full-order motion if that is larger.
+  double estimate_of(const RunResult& result) {
     const auto from_file = [](const scene::Body& body) { return body.reduced.has_value(); };
     if (candidates_->columns().empty()) {
       if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), from_file))
@@ -100,7 +101,9 @@ class Search {
           fmt::format("{}: accuracy: no error estimate is possible: {}", scene_.file, result.estimate.none));
     double worst = 0;
     for (const double error : result.estimate.probes) worst = std::max(worst, error);
-    return worst;
+    if (!result.impulsive) return worst;
+    if (full_order_.t.empty()) full_order_ = quiet_motion(scene_, scene::Formulation::nlffr, accuracy_, comm_);
+    return std::max(worst, worst_error(result.series, full_order_));
   }
 
   /// The remaining error of a step after a halving that changed `between`, the one before it `before`; r their
@@ -374,6 +377,7 @@ class Search {
   double building_;                   // processor time [s]
   Trials trials_;                     // its reference: the richest model's motion in fine steps, or the given one
   std::vector<solve::State> states_;  // of the richest model
+  Series full_order_;                 // where impulses change velocities
   Series whole_motion_;               // its motion, in steps that are halved
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's

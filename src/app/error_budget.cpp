@@ -179,7 +179,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
-  if (!own.changes.empty()) result.estimate = assess::estimate_by_full_order(motion, own, allowed);
+  if (!own.changes.empty() || own.impulsive) result.estimate = assess::estimate_by_full_order(motion, own, allowed);
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;

@@ -31,6 +31,7 @@ struct RunResult {
   double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;
   assess::Estimate estimate;
+  bool impulsive = false;  ///< assess::KeptMotion::impulsive: the estimate, if it is not one by full order, is too low
   std::vector<assess::OutOfRange> out_of_range;  ///< their texts are among the warnings
   std::vector<solve::State> states;              ///< some, along the motion, if they were to be kept
 };

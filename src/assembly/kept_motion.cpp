@@ -20,6 +20,7 @@ void KeptMotion::keep(const solve::Instant& instant) {
 }
 
 void KeptMotion::note(const solve::EventReport& event) {
+  impulsive_ = impulsive_ || event.work;
   if (event.switches) changes_.push_back({event.name, event.t});
 }
 

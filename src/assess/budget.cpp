@@ -20,7 +20,7 @@ bool whole(const ErrorPart& part, const ProbeSeries& own) {
 }  // namespace
 
 ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Estimate& reduction) {
-  ProbeSeries series{probe_columns(model), {}, {}, motion.changes(), motion.event_error()};
+  ProbeSeries series{probe_columns(model), {}, {}, motion.changes(), motion.event_error(), motion.impulsive()};
   const std::vector<solve::State>& states = motion.states();
   const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                          A = model.system->create_vector();

@@ -28,8 +28,7 @@ std::vector<PetscInt> nearest_nodes(const mesh::RawMesh& mesh, const Eigen::Vect
 }  // namespace
 
 std::vector<mesh::DependentNode> well_led(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
-                                          const std::vector<mesh::DependentNode>& links,
-                                          const mesh::NodeSets& places) {
+                                          const std::vector<mesh::DependentNode>& links, const mesh::NodeSets& places) {
   if (links.empty()) return links;
   std::vector<const Place*> held;
   if (body.frame.given) held = {&body.frame.from, &body.frame.to, &body.frame.at};

@@ -23,6 +23,9 @@ class KeptMotion {
   const std::vector<JointChange>& changes() const { return changes_; }
   /// The largest one of steps after these (solve::Instant).
   double event_error() const { return event_error_; }
+  /// Whether impulses have changed the velocities: at the start, to fit joints and drives, or where speeds of drives
+  /// jump. Other models answer to them with other velocities, which residuals at states do not show.
+  bool impulsive() const { return impulsive_ || model_.velocity_correction > 1e-3; }
   const std::vector<solve::State>& states() const { return states_; }
 
  private:
@@ -32,6 +35,7 @@ class KeptMotion {
   PetscInt stride_ = 1;
   std::vector<solve::State> states_;
   std::vector<JointChange> changes_;
+  bool impulsive_ = false;
   double event_error_ = 0;
 };
 

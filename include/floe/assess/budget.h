@@ -13,6 +13,7 @@ struct ProbeSeries {
   std::vector<std::vector<double>> values;  ///< of each instant, each column
   std::vector<JointChange> changes = {};    ///< of the motion
   double event_error = 0;                   ///< KeptMotion::event_error
+  bool impulsive = false;                   ///< KeptMotion::impulsive
 };
 
 /// Those of the kept states: at the instants of the estimate of the reduction, at all where there is none. Collective
