@@ -11,10 +11,22 @@
 namespace floe::assembly {
 namespace {
 
-/// Where a formula of t first changes sign in (0, end]: sampled 1000 times, and by motion.step; then bisection.
-std::optional<double> first_sign_change(const math::Formula& formula, double step, double end) {
+/// Whether all samples of a formula are 0 or 1: it is a condition.
+bool is_condition(const math::Formula& formula, double h, std::int64_t count, double end) {
+  for (std::int64_t i = 0; i <= count; ++i) {
+    const double value = formula(std::min(static_cast<double>(i) * h, end));
+    if (value != 0 && value != 1) return false;
+  }
+  return true;
+}
+
+/// Where a formula of t first changes sign in (0, end], or a condition changes: sampled 1000 times, and by motion.step;
+/// then bisection.
+std::optional<double> first_sign_change(const math::Formula& of_time, double step, double end) {
   const double h = std::min(step, end / 1000);
   const auto count = static_cast<std::int64_t>(std::ceil(end / h));
+  const double lowered = is_condition(of_time, h, count, end) ? 0.5 : 0;
+  const auto formula = [&](double t) { return of_time(t) - lowered; };
   double before = formula(0), low = 0;
   for (std::int64_t i = 1; i <= count; ++i) {
     double high = std::min(static_cast<double>(i) * h, end);

@@ -168,6 +168,9 @@ PetscErrorCode distance(TS ts, Vec U, PetscReal* far);
 PetscErrorCode mark_attitudes(TS ts);
 /// ts->vec_sol takes its own rotations for bases; `origin` moves with it. Collective.
 PetscErrorCode rebase(TS ts);
+
+/// Sets from_rest: nothing has moved since the run began, nor does it at the beginning of the step. Collective.
+PetscErrorCode note_rest(TS ts);
 /// y += factor [a, b]; W is overwritten.
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 

@@ -97,16 +97,13 @@ PetscErrorCode differentiate(TS ts, Mat inertia, Vec known) {
 
 PetscErrorCode mark_origin(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  PetscReal speed, acceleration;
 
   PetscFunctionBegin;
-  data->from_rest = PETSC_FALSE;
-  if (ts->steps > 0) PetscFunctionReturn(0);
-  PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
-  PetscCall(VecNorm(data->A0, NORM_INFINITY, &acceleration));
-  if (speed == 0 && acceleration == 0) data->from_rest = PETSC_TRUE;
-  PetscCall(VecCopy(data->U0, data->origin));
-  data->reach = 0;
+  if (ts->steps == 0) {
+    PetscCall(VecCopy(data->U0, data->origin));
+    data->reach = 0;
+  }
+  PetscCall(note_rest(ts));
   PetscFunctionReturn(0);
 }
 
@@ -248,6 +245,19 @@ PetscErrorCode smooth_rates(TS ts) {
   data->fresh = data->smoothed = PETSC_TRUE;
   data->h_start = data->h;
   data->equal_steps = 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode note_rest(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscReal speed, acceleration;
+
+  PetscFunctionBegin;
+  data->from_rest = PETSC_FALSE;
+  if (data->reach > 0) PetscFunctionReturn(0);
+  PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
+  PetscCall(VecNorm(data->A0, NORM_INFINITY, &acceleration));
+  if (speed == 0 && acceleration == 0) data->from_rest = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 

@@ -23,7 +23,8 @@ PetscErrorCode begin(TS ts) {
   std::swap(data->a0, data->a1);
   data->h_a0 = data->h;
   ++data->equal_steps;
-  data->fresh = data->from_rest = PETSC_FALSE;
+  data->fresh = PETSC_FALSE;
+  PetscCall(note_rest(ts));
   PetscFunctionReturn(0);
 }
 

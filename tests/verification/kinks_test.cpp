@@ -203,3 +203,18 @@ TEST_CASE("an angle that jumps is refused, and so is an infinite speed") {
   CHECK_THROWS_WITH(move(bars("angle: \"sqrt(t)\"", "{end: .5, step: .01}"), Formulation::vm_md),
                     Contains("the rate of \"sqrt(t)\" is infinite at t = 0"));
 }
+
+// A bar at rest on a slider under a force that begins later: x = F (t - 1)^4/12 m; nothing measures the first steps.
+TEST_CASE("adaptive steps of a motion that rests until a load begins") {
+  const std::string force = GENERATE(std::string("max(0, t - 1)^2"), std::string("t > 1 ? (t - 1)^2 : 0"));
+  const History at = move(fill(R"yaml(
+bodies: {b: {rigid: {mass: 2, centre: [0, 0], inertia: 1}}}
+joints: {g: {type: prismatic, between: [ground, b.centre]}}
+loads: {f: {type: force, at: b.centre, force: ["$force", 0]}}
+motion: {end: 3, step: 1e-3, tolerance: 1e-5}
+probes: {x: {at: b.centre, quantity: displacement}}
+)yaml",
+                               {{"force", force}}),
+                          Formulation::nlffr);
+  CHECK(at["x.x"].back() == Approx(16. / 24).epsilon(1e-3));
+}

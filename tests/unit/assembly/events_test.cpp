@@ -131,11 +131,10 @@ TEST_CASE("a hinge that is locked stops a rod at once and says what that took") 
 }
 
 TEST_CASE("an event happens where its formula first changes sign, also where that begins at zero") {
-  const std::vector<std::pair<std::string, double>> cases{{"sin(5*t)", M_PI / 5},
-                                                          {"t*(t - 0.4)", 0.4},
-                                                          {"(t - 0.2)*(t - 0.6)", 0.2},
-                                                          {"0.3 - t", 0.3},
-                                                          {"cos(20*t)", M_PI / 40}};
+  const std::vector<std::pair<std::string, double>> cases{
+      {"sin(5*t)", M_PI / 5}, {"t*(t - 0.4)", 0.4},       {"(t - 0.2)*(t - 0.6)", 0.2},
+      {"0.3 - t", 0.3},       {"cos(20*t)", M_PI / 40},   {"t > 0.7", 0.7},
+      {"t < 0.7", 0.7},       {"pulse(t, 0.2, 0.4)", 0.2}};
   for (const auto& [when, t] : cases) {
     INFO(when);
     const History history = move(rod("enough: {stop: true, when: \"" + when + "\"}"), Formulation::vm_md);
