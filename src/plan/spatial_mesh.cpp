@@ -119,6 +119,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
     DeckSections deck = deck_sections(read);
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
+    for (mesh::PointMass& mass : read.deck.masses) mass.offset *= file.scale;
     add_masses(read, deck.parts);
     add_springs(read.mesh, read.deck.springs, deck.parts);
     std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck);
