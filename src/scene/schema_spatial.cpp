@@ -32,7 +32,9 @@ const SchemaSection file_section{
     {
         {"path", Type::text, "", required, "path of the file, relative to the folder of the scene"},
         {"scale", Type::number, "", "1",
-         "factor on all coordinates and offsets of beams and masses, but not on sections, materials and masses of a deck", positive},
+         "factor on all coordinates and offsets of beams and masses, but not on sections, materials and masses of a "
+         "deck",
+         positive},
         {"ignore", Type::texts, "", "",
          "decks: types of elements that are left out with the nodes that only they use, as C3D20R or CTETRA"},
         {"refine",

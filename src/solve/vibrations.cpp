@@ -98,7 +98,11 @@ Quadratic on(const AllowedMotions& allowed, const RotatingTangent& at) {
 /// @return  w, typical of the slow vibrations, or the speed
 double resolve(const RotatingTangent& at, double speed, AllowedMotions& allowed, Quadratic& problem) {
   constexpr double wanted = 1e-9;
-  const VectorXd stiffness = VectorXd(at.K.diagonal()).cwiseAbs(), mass = VectorXd(at.M.diagonal()).cwiseMax(0);
+  constexpr double round_off = 1e-18;  // of the greatest stiffness
+  const VectorXd mass = VectorXd(at.M.diagonal()).cwiseMax(0);
+  VectorXd stiffness = VectorXd(at.K.diagonal()).cwiseAbs();
+  for (Index i = 0; i < mass.size(); ++i)  // of axes that follow others (a place of several nodes)
+    if (mass[i] == 0 && stiffness[i] < round_off * stiffness.maxCoeff()) stiffness[i] = 0;
   double fast = fastest(problem), swing = std::max(typical(problem), speed);
   while (std::numeric_limits<double>::epsilon() * fast > wanted * swing * swing && swing > 0) {
     fast = swing * swing;

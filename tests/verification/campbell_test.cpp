@@ -4,7 +4,7 @@
 #include <map>
 
 #include "eigenvalues.h"
-#include "spatial_scenes.h"
+#include "shell_decks.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -509,5 +509,49 @@ bodies:
   for (int i = 0; i < 6; ++i) {
     CHECK(found[i] == 0);
     CHECK(found[6 + i] == Approx(modes[i]).epsilon(1e-6));
+  }
+}
+
+// A thin ring about its axis, held by the mean of all its nodes: in-plane bending with n waves, inextensional (Bryan
+// 1890), w = +- 2 n/(n^2 + 1) Omega + sqrt(w_0^2 + (n (n^2 - 1)/(n^2 + 1) Omega)^2), w_0^2 = n^2 (n^2 - 1)^2/(n^2 + 1)
+// EI/(rho A R^4). The axes of the mean have no mass: their stiffness, round-off, must not scale them.
+TEST_CASE("campbell: a rotating ring of shells, held by its mean") {
+  const double R = 0.5, t = 0.01, E = 7e10, rho = 2700;
+  const auto at = [&](double x, double y) {
+    return Eigen::Vector3d(R * std::cos(2 * M_PI * y), R * std::sin(2 * M_PI * y), 0.02 * (x - 0.5));
+  };
+  std::string text = shells("S4", 1, 32, t, fmt::format("*ELASTIC\n{}, 0\n*DENSITY\n{}\n", E, rho), at, true);
+  text += "*NSET, NSET=ring\nleft, right\n";
+  const Deck deck(text);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    const app::CampbellDiagram found = diagram(fill(R"yaml(
+bodies:
+  hub: {rigid: {mass: 1, centre: [0, 0, 0], inertia: [1, 1, 1]}}
+  b:
+    mesh: {file: {path: $deck}}
+    frame: mean-axis
+    reduction: {modes: 10, attachment: all}
+joints:
+  r: {type: driven, between: [ground, hub.centre], axis: [0, 0, 1], speed: 30}
+  k: {type: fixed, between: [hub.centre, b.ring], edges: mean}
+)yaml",
+                                                    {{"deck", deck.path()}}),
+                                               formulation, "0,30", 6);
+    for (const app::CampbellPoint& point : found.points) {
+      const std::vector<double> here = omega(point);
+      const auto nearest = [&](double wanted) {
+        return *std::min_element(here.begin(), here.end(),
+                                 [&](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+      };
+      CHECK(here.front() > 100);  // others bend out of its plane or rotate it
+      for (const double sign : {-1., 1.}) {
+        const double n = 2, w0 = n * (n * n - 1) * t / (R * R) * std::sqrt(E / (12 * rho * (n * n + 1))),
+                     c = n * (n * n - 1) / (n * n + 1) * point.speed,
+                     expected = sign * 2 * n / (n * n + 1) * point.speed + std::hypot(w0, c);
+        CHECK(nearest(expected) == Approx(expected).epsilon(1e-2));
+      }
+      CHECK(std::count_if(here.begin(), here.end(), [](double one) { return one < 200; }) == 2);
+    }
   }
 }
