@@ -176,8 +176,8 @@ void tie_idle_rotations(std::vector<DependentNode>& all, const Points& points, c
 
 }  // namespace
 
-std::vector<DependentNode> led_by_elements(const RawMesh& mesh, std::vector<DependentNode> all,
-                                           const std::vector<PetscInt>& kept) {
+std::vector<DependentNode> with_independent_elements(const RawMesh& mesh, std::vector<DependentNode> all,
+                                                     const std::vector<PetscInt>& kept) {
   std::vector<PetscInt> used;
   for (const Cell& cell : mesh.cells)
     if (has_extent(cell.kind)) used.insert(used.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
@@ -191,17 +191,17 @@ std::vector<DependentNode> led_by_elements(const RawMesh& mesh, std::vector<Depe
     if (link.spins()) loose.insert(link.independent_node);
     if (has(with_elements, link.node)) regions[link.independent_node].push_back(link.node);
   }
-  std::map<PetscInt, PetscInt> leader;
+  std::map<PetscInt, PetscInt> independent;
   for (const auto& [node, others] : regions) {
     if (others.empty() || loose.contains(node) || has(with_elements, node) || has(kept, node)) continue;
     const std::vector<Eigen::Vector3d> x = positions_of(mesh, others);
     const double small = 1e-9 * x.front().norm();
     if (std::all_of(x.begin(), x.end(), [&](const Eigen::Vector3d& at) { return (at - x.front()).norm() <= small; }))
-      leader[node] = others.front();
+      independent[node] = others.front();
   }
   for (DependentNode& link : all) {
-    const auto found = leader.find(link.independent_node);
-    if (found == leader.end()) continue;
+    const auto found = independent.find(link.independent_node);
+    if (found == independent.end()) continue;
     if (link.node == found->second) link.node = found->first;
     link.independent_node = found->second;
   }

@@ -27,8 +27,9 @@ std::vector<PetscInt> nearest_nodes(const mesh::RawMesh& mesh, const Eigen::Vect
 
 }  // namespace
 
-std::vector<mesh::DependentNode> well_led(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
-                                          const std::vector<mesh::DependentNode>& links, const mesh::NodeSets& places) {
+std::vector<mesh::DependentNode> with_independent_nodes(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
+                                                        const std::vector<mesh::DependentNode>& links,
+                                                        const mesh::NodeSets& places) {
   if (links.empty()) return links;
   std::vector<const Place*> held;
   if (body.frame.given) held = {&body.frame.from, &body.frame.to, &body.frame.at};
@@ -42,7 +43,7 @@ std::vector<mesh::DependentNode> well_led(const Scene& scene, const Body& body, 
       keep(nearest_nodes(mesh, {(*place->point)[0], (*place->point)[1], (*place->point)[2]}));
     else if (const auto found = places.find(place->name); found != places.end())
       keep(found->second.nodes);
-  return mesh::led_by_elements(mesh, links, kept);
+  return mesh::with_independent_elements(mesh, links, kept);
 }
 
 std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body, const mesh::NodeSets& places) {

@@ -5,10 +5,11 @@
 namespace floe::plan {
 using namespace scene;
 
-/// Rigid regions led by nodes that have elements (mesh::led_by_elements), unless the body's frame or a joint to the
-/// ground holds the leading node, which then does not rotate. Collective.
-std::vector<mesh::DependentNode> well_led(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
-                                          const std::vector<mesh::DependentNode>& links, const mesh::NodeSets& places);
+/// Rigid regions whose independent nodes have elements (mesh::with_independent_elements), unless the body's frame or a
+/// joint to the ground holds the given one, which then does not rotate. Collective.
+std::vector<mesh::DependentNode> with_independent_nodes(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
+                                                        const std::vector<mesh::DependentNode>& links,
+                                                        const mesh::NodeSets& places);
 
 /// Places of the body that its joints hold as one rigid piece each.
 std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body, const mesh::NodeSets& places);

@@ -307,7 +307,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   if (has_straight_edges(scene, body))
     add_straight_edges(scene, body, places, membrane_stiffness(sections_of(body, source)), source.mesh, source.parts);
   refuse_loose_edges(scene, body, source.dependent_nodes, places, source.mesh);
-  source.dependent_nodes = well_led(scene, body, source.mesh, source.dependent_nodes, places);
+  source.dependent_nodes = with_independent_nodes(scene, body, source.mesh, source.dependent_nodes, places);
   std::vector<std::string> left_out;
   source.dependent_nodes =
       mesh::with_lines(mesh::with_pieces(source.dependent_nodes, rigid_pieces(scene, body, places)),

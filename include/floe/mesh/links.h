@@ -27,14 +27,14 @@ struct DependentNode {
 /// Collective.
 std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const Deck& deck);
 
-/// The same rigid regions, led by the node that has elements where only nodes at one point have: an element at an arm
-/// of the leading node knows only rotations, not displacements, of second order in its slopes, so that an arm across a
-/// beam would resist rotations, the more the shorter the element.
+/// The same rigid regions, whose independent node is one that has elements where only nodes at one point have any: an
+/// element at an arm of the independent node has no displacements of second order in its slopes, so that an arm across
+/// a beam would resist rotations, the more the shorter the element.
 ///
 /// @param kept  independent nodes that stay such; same on all ranks
 /// Collective.
-std::vector<DependentNode> led_by_elements(const RawMesh& mesh, std::vector<DependentNode> dependent_nodes,
-                                           const std::vector<PetscInt>& kept);
+std::vector<DependentNode> with_independent_elements(const RawMesh& mesh, std::vector<DependentNode> dependent_nodes,
+                                                     const std::vector<PetscInt>& kept);
 
 /// The independent node of a node, or the node itself. `dependent_nodes` ascends.
 PetscInt independent_node_of(const std::vector<DependentNode>& dependent_nodes, PetscInt node);

@@ -91,23 +91,24 @@ TEST_CASE("rigid links that hang on others compose, and none leads back to itsel
   CHECK_THAT(testing::fault_of([&] { nodes_of(two); }), Contains("node 2 is in rigid links to two nodes"));
 }
 
-TEST_CASE("a node with elements leads a rigid region that has no others, unless the independent node is to stay") {
+TEST_CASE(
+    "a node with elements is the independent one of a rigid region that has no others, unless another is to stay") {
   const auto file = read("*NODE\n10, 5, 6\n11, 6, 6\n*MPC\nBEAM, 2, 10\nBEAM, 11, 10\nBEAM, 1, 9\nBEAM, 4, 9\n");
   const auto labels = testing::of_all_ranks(file.mesh.node_labels);
   const auto number = [&](long long label) {
     return static_cast<PetscInt>(std::find(labels.begin(), labels.end(), label) - labels.begin());
   };
-  const auto led = [&](const std::vector<PetscInt>& kept) {
+  const auto pairs_of = [&](const std::vector<PetscInt>& kept) {
     std::vector<std::array<long long, 2>> pairs;
     const auto all = mesh::dependent_nodes(file.mesh, file.deck);
-    for (const mesh::DependentNode& link : mesh::led_by_elements(file.mesh, all, kept))
+    for (const mesh::DependentNode& link : mesh::with_independent_elements(file.mesh, all, kept))
       pairs.push_back({labels.at(link.node), labels.at(link.independent_node)});
     std::sort(pairs.begin(), pairs.end());
     return pairs;
   };
   using Pairs = std::vector<std::array<long long, 2>>;
-  CHECK(led({}) == Pairs{{1, 9}, {4, 9}, {10, 2}, {11, 2}});
-  CHECK(led({number(10)}) == Pairs{{1, 9}, {2, 10}, {4, 9}, {11, 10}});
+  CHECK(pairs_of({}) == Pairs{{1, 9}, {4, 9}, {10, 2}, {11, 2}});
+  CHECK(pairs_of({number(10)}) == Pairs{{1, 9}, {2, 10}, {4, 9}, {11, 10}});
 }
 
 TEST_CASE("surfaces of elements are places: faces and edges") {
