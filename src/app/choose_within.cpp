@@ -8,6 +8,7 @@
 #include "choose.h"
 #include "choose_trials.h"
 #include "compare_table.h"
+#include "discretisation.h"
 #include "exact_motion.h"
 #include "floe/math/rounded.h"
 #include "interruption.h"
@@ -80,6 +81,8 @@ class Search {
            responses > 0 ? fmt::format("{} correction vectors from residual responses: estimated error {} (before: {})",
                                        responses, math::percent(space_), math::percent(first))
                          : "estimated error " + math::percent(space_));
+    if (!too_low_.empty())
+      decisions_.back().reason += "; without the part that impulses make, which is not known: " + too_low_;
     if (too_low > 2)
       decisions_.back().reason +=
           fmt::format("; the first estimates were too low by a factor of {}, which is accounted for",
@@ -102,8 +105,26 @@ class Search {
     double worst = 0;
     for (const double error : result.estimate.probes) worst = std::max(worst, error);
     if (!result.impulsive) return worst;
-    if (full_order_.t.empty()) full_order_ = quiet_motion(scene_, scene::Formulation::nlffr, accuracy_, comm_);
-    return std::max(worst, worst_error(result.series, full_order_));
+    if (full_order_.t.empty() && too_low_.empty()) simulate_full_order();
+    if (!too_low_.empty()) return worst;
+    const double error = worst_error(result.series, full_order_);
+    if (error <= 1) return std::max(worst, error);
+    too_low_ = "formulation nlffr differs by the size of the motion";
+    return worst;
+  }
+
+  void simulate_full_order() {
+    constexpr double greatest_work = 1e6;  // elements times steps: some 100 s
+    if (element_count(scene_, discretisation_of(scene_)) * scene_.motion.end / scene_.motion.step > greatest_work) {
+      too_low_ = "formulation nlffr would take too long";
+      return;
+    }
+    try {
+      full_order_ = quiet_motion(scene_, scene::Formulation::nlffr, accuracy_, comm_);
+    } catch (const std::runtime_error& fault) {  // on all ranks
+      if (Interruption::happened(comm_)) throw;
+      too_low_ = fmt::format("formulation nlffr fails ({})", fault.what());
+    }
   }
 
   /// The remaining error of a step after a halving that changed `between`, the one before it `before`; r their
@@ -378,6 +399,7 @@ class Search {
   Trials trials_;                     // its reference: the richest model's motion in fine steps, or the given one
   std::vector<solve::State> states_;  // of the richest model
   Series full_order_;                 // where impulses change velocities
+  std::string too_low_;               // why estimates are, there
   Series whole_motion_;               // its motion, in steps that are halved
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's

@@ -9,7 +9,7 @@ using solve::State;
 
 void KeptMotion::keep(const solve::Instant& instant) {
   if (instant.step == 0) begin_ = instant.t;
-  if (!changes_.empty()) event_error_ = std::max(event_error_, instant.event_error);
+  if (!changes_.empty() || impulsive_) event_error_ = std::max(event_error_, instant.event_error);
   const bool again = !changes_.empty() && instant.t == changes_.back().t;  // behind the event
   if (again || !instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
   states_.push_back(solve::state_of(*model_.system, instant.t, instant.U, instant.V, instant.A));

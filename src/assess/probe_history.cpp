@@ -31,8 +31,10 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
   ProbeHistory history;
   how.events = events_of(scene, model, how.end);
   how.kinks = kinks_of(scene, how.end);
+  bool jumps = false;  // velocities have, by an event or a drive
   how.on_event = [&](const dynamics::EventReport& event) {
     if (event.switches) history.changes.push_back(event.name);
+    jumps = jumps || event.switches || event.work;
   };
   how.from = nullptr;
   AtTimes at(model, times, how.step);
@@ -45,7 +47,7 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
       history.happened.resize(i + 1, history.changes.size());
     });
     history.reached = instant.t;
-    if (!history.changes.empty()) history.event_error = std::max(history.event_error, instant.event_error);
+    if (jumps) history.event_error = std::max(history.event_error, instant.event_error);
     if (!enough || !enough(instant)) return;
     history.enough = true;
     throw RunError("enough");
@@ -55,7 +57,7 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
   } catch (const solve::MotionStopped& stopped) {
     if (history.enough) return history;
     history.stopped = stopped.what();
-    if (!history.changes.empty()) history.event_error = std::numeric_limits<double>::infinity();
+    if (jumps) history.event_error = std::numeric_limits<double>::infinity();
   }
   return history;
 }

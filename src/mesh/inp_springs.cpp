@@ -74,7 +74,6 @@ std::optional<NodeSpring> between(const InpSpring& spring, const InpUse& use, co
                            name, across, first));
     return std::nullopt;
   }
-  if (first <= 3 && along.norm() > coincident * extent) return line_spring(along, use.amount, spring.label);
   NodeSpring result{{}, {}, Eigen::Matrix3d::Identity(), 0.5, spring.label};
   result.stiffness[static_cast<std::size_t>(first) - 1] = use.amount;
   return result;

@@ -75,7 +75,6 @@ std::optional<NodeSpring> NasBuild::scalar_spring(const NasSpring& spring, const
     }
     stiffness = found->second;
   }
-  if (first <= 3 && (x[1] - x[0]).norm() > coincident * extent()) return line_spring(x[1] - x[0], stiffness, spring.id);
   NodeSpring result{{}, {}, axes_along(e[0]), 0.5, spring.id};
   result.stiffness[first <= 3 ? 0 : 3] = stiffness;
   return result;

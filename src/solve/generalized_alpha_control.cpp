@@ -174,8 +174,9 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
 // Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
 // sqrt(sum M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as
 // about an equilibrium, moves by round-off. -1 (not known) while nothing has moved, and in the first step from
-// rest without a force, at the start or later, where the distance is of the size of the error whatever the step. The
-// power of h in the estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+// rest without a force, where the distance is of the size of the error whatever the step: of a motion that begins so it
+// has the length that was given, later a thousandth of the steps at rest. The power of h in the
+// estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscReal least = 1e-9;
@@ -199,6 +200,7 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   const PetscReal reach = PetscMax(PetscMax(data->reach, data->reach_tried), least * PetscSqrtReal(sums[2]));
   const bool known = reach > 0 && !data->from_rest;
   *error = known ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
+  if (data->from_rest && ts->steps > 0 && data->reach_tried > 0 && data->h > 1.1e-3 * data->rest_step) *error = 1e9;
   *order = 3;
   PetscFunctionReturn(0);
 }

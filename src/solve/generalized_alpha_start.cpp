@@ -258,6 +258,7 @@ PetscErrorCode note_rest(TS ts) {
   PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
   PetscCall(VecNorm(data->A0, NORM_INFINITY, &acceleration));
   if (speed == 0 && acceleration == 0) data->from_rest = PETSC_TRUE;
+  if (data->from_rest && data->rest_step == 0) data->rest_step = ts->time_step;
   PetscFunctionReturn(0);
 }
 

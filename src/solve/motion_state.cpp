@@ -40,7 +40,7 @@ void each_number(TS ts, Visit&& visit) {
   visit(data->equal_steps), visit(data->unresolved), visit(data->after_event);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
   visit(data->reach), visit(data->reach_tried);
-  visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);
+  visit(data->rest_step), visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);
 }
 
 }  // namespace
@@ -91,9 +91,11 @@ void load_motion(TS ts, const System& system, const MotionState& state) {
     Mat J = nullptr, P = nullptr;
     check(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
     petsc::agree(system.comm(), [&] { system.load(state.carried_of_tangent); });
-    check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
-                              data->tangent_shift_v, data->tangent_shift_a, J, P));
-    check(scale_jacobian(ts, P));
+    if (data->tangent_shift_a > 0) {  // else none was formed: nothing has moved
+      check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
+                                data->tangent_shift_v, data->tangent_shift_a, J, P));
+      check(scale_jacobian(ts, P));
+    }
     take();  // set_scales asked for a new Jacobian
     set_step(data, data->h);
   }

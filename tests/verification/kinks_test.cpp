@@ -207,14 +207,22 @@ TEST_CASE("an angle that jumps is refused, and so is an infinite speed") {
 // A bar at rest on a slider under a force that begins later: x = F (t - 1)^4/12 m; nothing measures the first steps.
 TEST_CASE("adaptive steps of a motion that rests until a load begins") {
   const std::string force = GENERATE(std::string("max(0, t - 1)^2"), std::string("t > 1 ? (t - 1)^2 : 0"));
-  const History at = move(fill(R"yaml(
+  const auto moved = [](const std::string& by, const char* step) {
+    return move(fill(R"yaml(
 bodies: {b: {rigid: {mass: 2, centre: [0, 0], inertia: 1}}}
 joints: {g: {type: prismatic, between: [ground, b.centre]}}
 loads: {f: {type: force, at: b.centre, force: ["$force", 0]}}
-motion: {end: 3, step: 1e-3, tolerance: 1e-5}
+motion: {end: 3, step: $step, tolerance: 1e-5}
 probes: {x: {at: b.centre, quantity: displacement}}
 )yaml",
-                               {{"force", force}}),
-                          Formulation::nlffr);
-  CHECK(at["x.x"].back() == Approx(16. / 24).epsilon(1e-3));
+                     {{"force", by}, {"step", step}}),
+                Formulation::nlffr)["x.x"]
+        .back();
+  };
+  CHECK(moved(force, "1e-3") == Approx(16. / 24).epsilon(1e-3));
+  // and x = F (T - sin(w T)/w)/(m w) of F sin(w t), whatever the step at rest
+  const double w = 200, T = 3 - 1.0037;
+  for (const char* step : {"1e-3", "2e-2"})
+    CHECK(moved("t > 1.0037 ? 5*sin(200*(t - 1.0037)) : 0", step) ==
+          Approx(5 * (T - std::sin(w * T) / w) / (2 * w)).epsilon(1e-2));
 }

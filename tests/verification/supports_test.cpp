@@ -220,3 +220,19 @@ TEST_CASE("supports: reactions where edges meet do not depend on the order of jo
   CHECK((reactions(clamp + edge[2] + edge[3], Formulation::vm_md) - whole).norm() < 1e-3);
   CHECK((reactions(edge[3] + edge[2] + clamp, Formulation::cfr) - whole).norm() < 0.01);
 }
+
+// What a support shares with a clamp that an event releases is the support's, before and after.
+TEST_CASE("supports: a released edge has no reaction, also at a node that a support holds") {
+  const History at =
+      move(plate("  left: {type: fixed, between: [ground, plate.left]}\n" + support("plate.bottom", "z") +
+                     "  right: {type: fixed, between: [ground, plate.right]}\n",
+                 "loads: {p: {type: pressure, body: plate, pressure: \"1e3*smooth(t, 0, 0.02)\"}}\n"
+                 "events: {e: {unlock: left, at: 0.02}}\n"
+                 "probes: {left: {joint: left}, moment: {joint: left, quantity: moment}, bottom: {joint: "
+                 "bottom}}\nmotion: {end: 0.03, step: 1e-3}\n",
+                 "1", "4"),
+           Formulation::cfr);
+  CHECK(std::abs(at["left.z"].back()) < 1e-9);
+  CHECK(std::abs(at["moment.x"].back()) < 1e-9);
+  CHECK(std::abs(at["bottom.z"].back()) > 1);
+}
