@@ -91,11 +91,11 @@ void load_motion(TS ts, const System& system, const MotionState& state) {
     Mat J = nullptr, P = nullptr;
     check(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
     petsc::agree(system.comm(), [&] { system.load(state.carried_of_tangent); });
-    if (data->tangent_shift_a > 0) {  // else none was formed: nothing has moved
-      check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
-                                data->tangent_shift_v, data->tangent_shift_a, J, P));
-      check(scale_jacobian(ts, P));
-    }
+    if (data->tangent_shift_a == 0)  // no step formed one: nothing has moved since the start
+      data->tangent_shift_v = data->shift_v, data->tangent_shift_a = data->shift_a;
+    check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
+                              data->tangent_shift_v, data->tangent_shift_a, J, P));
+    check(scale_jacobian(ts, P));
     take();  // set_scales asked for a new Jacobian
     set_step(data, data->h);
   }
