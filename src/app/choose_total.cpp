@@ -313,7 +313,7 @@ class TotalSearch {
 
   Chosen finished(Chosen chosen) {
     chosen.total = true;
-    chosen.unbounded = unbounded_;
+    chosen.unbounded.insert(chosen.unbounded.begin(), unbounded_.begin(), unbounded_.end());
     chosen.before = before_;
     chosen.decisions.insert(chosen.decisions.begin(), decisions_.begin(), decisions_.end());
     return chosen;

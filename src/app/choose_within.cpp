@@ -8,9 +8,8 @@
 #include "choose.h"
 #include "choose_trials.h"
 #include "compare_table.h"
-#include "discretisation.h"
-#include "exact_motion.h"
 #include "floe/math/rounded.h"
+#include "impulse_error.h"
 #include "interruption.h"
 
 namespace floe::app {
@@ -28,7 +27,8 @@ class Search {
         begin_(std::clock()),
         candidates_(std::make_unique<assess::CandidateBasis>(scene, comm)),
         building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC),
-        trials_(scene, *candidates_, accuracy, comm) {}
+        trials_(scene, *candidates_, accuracy, comm),
+        impulses_(scene, accuracy, comm) {}
 
   Chosen result() {
     enrich();
@@ -81,8 +81,6 @@ class Search {
            responses > 0 ? fmt::format("{} correction vectors from residual responses: estimated error {} (before: {})",
                                        responses, math::percent(space_), math::percent(first))
                          : "estimated error " + math::percent(space_));
-    if (!too_low_.empty())
-      decisions_.back().reason += "; without the part that impulses make, which is not known: " + too_low_;
     if (too_low > 2)
       decisions_.back().reason +=
           fmt::format("; the first estimates were too low by a factor of {}, which is accounted for",
@@ -104,27 +102,7 @@ class Search {
           fmt::format("{}: accuracy: no error estimate is possible: {}", scene_.file, result.estimate.none));
     double worst = 0;
     for (const double error : result.estimate.probes) worst = std::max(worst, error);
-    if (!result.impulsive) return worst;
-    if (full_order_.t.empty() && too_low_.empty()) simulate_full_order();
-    if (!too_low_.empty()) return worst;
-    const double error = worst_error(result.series, full_order_);
-    if (error <= 1) return std::max(worst, error);
-    too_low_ = "formulation nlffr differs by the size of the motion";
-    return worst;
-  }
-
-  void simulate_full_order() {
-    constexpr double greatest_work = 1e6;  // elements times steps: some 100 s
-    if (element_count(scene_, discretisation_of(scene_)) * scene_.motion.end / scene_.motion.step > greatest_work) {
-      too_low_ = "formulation nlffr would take too long";
-      return;
-    }
-    try {
-      full_order_ = quiet_motion(scene_, scene::Formulation::nlffr, accuracy_, comm_);
-    } catch (const std::runtime_error& fault) {  // on all ranks
-      if (Interruption::happened(comm_)) throw;
-      too_low_ = fmt::format("formulation nlffr fails ({})", fault.what());
-    }
+    return result.impulsive ? std::max(worst, impulses_.of(result.series)) : worst;
   }
 
   /// The remaining error of a step after a halving that changed `between`, the one before it `before`; r their
@@ -375,6 +353,8 @@ class Search {
                      math::percent(space_), math::percent(time_),
                      reference_.error > 0 ? fmt::format(", {} of its mesh", math::percent(reference_.error)) : ""));
     chosen.decisions = std::move(decisions_);
+    if (!impulses_.unknown().empty() && !reference_.series)
+      chosen.unbounded.emplace_back("reduction", impulses_.unknown());
     if (chosen.selection.responses == 0) {
       chosen.scene = trials_.with_step(step_);
       if (!candidates_->has_responses(selection_)) {
@@ -398,9 +378,8 @@ class Search {
   double building_;                   // processor time [s]
   Trials trials_;                     // its reference: the richest model's motion in fine steps, or the given one
   std::vector<solve::State> states_;  // of the richest model
-  Series full_order_;                 // where impulses change velocities
-  std::string too_low_;               // why estimates are, there
-  Series whole_motion_;               // its motion, in steps that are halved
+  ImpulseError impulses_;
+  Series whole_motion_;  // its motion, in steps that are halved
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's
   double shortest_ = 0;             // step that it needs

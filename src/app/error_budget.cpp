@@ -179,12 +179,12 @@ void take_full_order(assess::Estimate exact, assess::Estimate& estimate) {
     estimate = std::move(exact);
     return;
   }
-  estimate.notes.push_back(fmt::format(
-      "impulses change the velocities, whose part of the reduction error is not known (formulation nlffr: {}): it may "
-      "be far larger",
-      !exact.none.empty() ? exact.none
-      : known             ? "differs by the size of the motion"
-                          : "does not reach the end"));
+  estimate.notes.push_back(
+      fmt::format("impulses change the velocities, and what they add to the reduction error is not known ({}): it may "
+                  "be far larger",
+                  !exact.none.empty() ? exact.none
+                  : known             ? "formulation nlffr differs by more than 100 %"
+                                      : "formulation nlffr does not reach the end"));
 }
 
 }  // namespace

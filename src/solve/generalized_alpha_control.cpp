@@ -174,9 +174,9 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
 // Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
 // sqrt(sum M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as
 // about an equilibrium, moves by round-off. -1 (not known) while nothing has moved, and in the first step from
-// rest without a force, where the distance is of the size of the error whatever the step: of a motion that begins so it
-// has the length that was given, later a thousandth of the steps at rest. The power of h in the
-// estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+// rest without a force, where the distance is of the size of the error whatever the step: at the start of the motion
+// this step has the length that was given, later a thousandth of the steps at rest. The power of h in the estimate is
+// 3, which is what TSAdapt calls order (the scheme is of order 2).
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscReal least = 1e-9;

@@ -83,6 +83,21 @@ std::string strut_deck(const std::string& spring) {
          "MATERIAL=M\n0.01, 0.01\n0, 1, 0\n";
 }
 
+/// At rest under a force at its end. @param quantity  of the end
+History pulled(const std::string& deck, const std::string& end, const std::string& force, const std::string& quantity,
+               Formulation formulation) {
+  return rest(fill(R"yaml(
+bodies:
+  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
+joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
+loads: {tip: {type: force, at: {body: b, node: $end}, force: $force}}
+motion: {end: 1, step: 1}
+probes: {tip: {at: {body: b, node: $end}, quantity: $quantity}}
+)yaml",
+                   {{"deck", deck}, {"end", end}, {"force", force}, {"quantity", quantity}}),
+              formulation);
+}
+
 }  // namespace
 
 // k_r theta = F a - N a theta: what is carried at an arm a of the joint straightens under tension.
@@ -90,43 +105,24 @@ TEST_CASE("springs of decks: an elastic joint over a gap is stiffened by tension
   const Scratch scratch;
   const std::string deck = (scratch.path / "gap.bdf").string();
   write_text(deck, gap_deck());
-  const double a = 0.9, N = 100;
+  const double a = 0.9;
   for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
     INFO(scene::name_of(formulation));
-    const History at = rest(fill(R"yaml(
-bodies:
-  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
-joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
-loads: {tip: {type: force, at: {body: b, node: [1.3, 0, 0]}, force: [$N, 0.1, 0]}}
-motion: {end: 1, step: 1}
-probes: {tip: {at: {body: b, node: [1.3, 0, 0]}, quantity: rotation}}
-)yaml",
-                                 {{"deck", deck}, {"N", number(N)}}),
-                            formulation);
-    CHECK(at["tip.rz"].back() == Approx(0.1 * a / (50 + N * a)).epsilon(1e-3));
+    const History at = pulled(deck, "[1.3, 0, 0]", "[100, 0.1, 0]", "rotation", formulation);
+    CHECK(at["tip.rz"].back() == Approx(0.1 * a / (50 + 100 * a)).epsilon(1e-3));
   }
 }
 
 // A string beside a beam: F/w = T/L + P/(L (1 - tanh(s)/s)), s = L sqrt(P/EI), of the tension N = T + P.
 TEST_CASE("springs of decks: a spring along a line follows its ends") {
   const Scratch scratch;
-  const std::string deck = (scratch.path / "strut.inp").string(),
-                    spring = "SPRINGA, ELSET=S\n99, 1, 17\n*SPRING, ELSET=S\n\n1e8\n";
-  write_text(deck, strut_deck(spring));
+  const std::string deck = (scratch.path / "strut.inp").string();
+  write_text(deck, strut_deck("SPRINGA, ELSET=S\n99, 1, 17\n*SPRING, ELSET=S\n\n1e8\n"));
   const double EI = 7e10 * 1e-8 / 12, EA = 7e6, N = 1000, T = N * 1e8 / (1e8 + EA), P = N - T, s = std::sqrt(P / EI);
   const double expected = 0.1 / (T + P / (1 - std::tanh(s) / s));
   for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
     INFO(scene::name_of(formulation));
-    const History at = rest(fill(R"yaml(
-bodies:
-  b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}
-joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
-loads: {tip: {type: force, at: {body: b, node: [1, 0, 0]}, force: [$N, 0, 0.1]}}
-motion: {end: 1, step: 1}
-probes: {tip: {at: {body: b, node: [1, 0, 0]}, quantity: displacement}}
-)yaml",
-                                 {{"deck", deck}, {"N", number(N)}}),
-                            formulation);
+    const History at = pulled(deck, "[1, 0, 0]", "[1000, 0, 0.1]", "displacement", formulation);
     CHECK(at["tip.z"].back() == Approx(expected).epsilon(2e-3));
   }
 }
