@@ -90,9 +90,14 @@ void load_motion(TS ts, const System& system, const MotionState& state) {
     check(set_scales(ts));
     Mat J = nullptr, P = nullptr;
     check(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-    petsc::agree(system.comm(), [&] { system.load(state.carried_of_tangent); });
-    if (data->tangent_shift_a == 0)  // no step formed one: nothing has moved since the start
-      data->tangent_shift_v = data->shift_v, data->tangent_shift_a = data->shift_a;
+    const bool formed = data->tangent_shift_a > 0;
+    petsc::agree(system.comm(), [&] { system.load(formed ? state.carried_of_tangent : state.carried); });
+    if (!formed) {  // by no step, as nothing has moved since the start: it is the one here
+      check(VecCopy(ts->vec_sol, data->tangent_U));
+      check(VecCopy(ts->vec_dot, data->tangent_V));
+      check(VecCopy(data->A1, data->tangent_A));
+      data->tangent_t = ts->ptime, data->tangent_shift_v = data->shift_v, data->tangent_shift_a = data->shift_a;
+    }
     check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
                               data->tangent_shift_v, data->tangent_shift_a, J, P));
     check(scale_jacobian(ts, P));
