@@ -171,22 +171,6 @@ output::Cell cell_of(const ordered_json& part, const std::string& probe) {
   return 100 * error.get<double>();
 }
 
-/// Where impulses change velocities, residuals at states show a part of the reduction error only: the difference to the
-/// full-order motion takes their place, where that goes to the end and does not differ by the motion's own size.
-void take_full_order(assess::Estimate exact, assess::Estimate& estimate) {
-  const bool known = exact.none.empty() && !exact.t.empty() && exact.t.back() >= (1 - 1e-9) * estimate.t.back();
-  if (known && std::all_of(exact.probes.begin(), exact.probes.end(), [](double e) { return e <= 1; })) {
-    estimate = std::move(exact);
-    return;
-  }
-  estimate.notes.push_back(
-      fmt::format("impulses change the velocities, and what they add to the reduction error is not known ({}): it may "
-                  "be far larger",
-                  !exact.none.empty() ? exact.none
-                  : known             ? "formulation nlffr differs by more than 100 %"
-                                      : "formulation nlffr does not reach the end"));
-}
-
 }  // namespace
 
 ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
@@ -195,10 +179,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
-  if (!own.changes.empty())
-    result.estimate = assess::estimate_by_full_order(motion, own, allowed);
-  else if (own.impulsive && result.estimate.none.empty())
-    take_full_order(assess::estimate_by_full_order(motion, own, allowed), result.estimate);
+  if (!own.changes.empty() || own.impulsive) result.estimate = assess::estimate_by_full_order(motion, own, allowed);
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;

@@ -16,21 +16,21 @@
 
 namespace floe::app {
 
-namespace {
-
-constexpr int halvings_at_most = 4, first_steps = 30;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 int elements_of(const scene::Scene& scene) {
   int count = 0;
   for (const scene::Body& body : scene.bodies) {
     for (const int elements : body.mesh.elements) count += elements;
     if (body.mesh.plate) count += 2 * body.mesh.plate->elements[0] * body.mesh.plate->elements[1];
-    if (body.mesh.file && !body.rigid) count += 1000000;  // by all ranks together
+    if (body.mesh.file && !body.rigid) count += 1000000;
   }
   return count;
 }
+
+namespace {
+
+constexpr int halvings_at_most = 4, first_steps = 30;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// RunResult::motion_seconds is processor time.
 RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm,

@@ -6,6 +6,9 @@
 
 namespace floe::app {
 
+/// Elements of a scene, two for each quadrilateral; a mesh file, which is not read, counts as a million.
+int elements_of(const scene::Scene& scene);
+
 /// What a total accuracy is measured against: formulation cfr, elements and steps halved until little changes.
 ///
 ///   y = y(h, dt) + [y(0, dt) - y(h, dt)] + [y(h, 0) - y(h, dt)]

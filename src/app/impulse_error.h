@@ -11,7 +11,7 @@ class ImpulseError {
  public:
   ImpulseError(const scene::Scene& scene, double accuracy, MPI_Comm comm)
       : scene_(scene), accuracy_(accuracy), comm_(comm) {}
-  /// Of the worst probe; 0 where it is not known (unknown). Collective; the same on all ranks.
+  /// Of the worst probe; 0 where it is not known (unknown(), of the last call). Collective; the same on all ranks.
   double of(const Series& reduced);
   /// Why it is not known; empty: it is.
   const std::string& unknown() const { return unknown_; }

@@ -225,10 +225,10 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
       const double seconds = plan.estimate_seconds.value_or(
           assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
       result.impulsive = kept.impulsive();
-      if (kept.changes().empty())
+      if (kept.changes().empty() && !(kept.impulsive() && plan.budget))
         result.estimate = assess::estimate_error(model, kept, seconds);
       else
-        result.estimate.none = "events change the joints";
+        result.estimate.none = kept.changes().empty() ? "impulses change the velocities" : "events change the joints";
       if (start)
         budget = error_budget({scene, model, *start, how, report.steps, report.processor_seconds,
                                plan.offline_processor.value_or(offline_seconds), comm},

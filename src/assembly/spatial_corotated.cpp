@@ -129,7 +129,7 @@ void SpatialAssembly::find_constrained_nodes() {
                           probe.where.text(), joint.name));
       constrained_nodes_[static_cast<int>(j)] = nodes_constrained_by(j, released);
       for (const ConstrainedNode& one : constrained_nodes_[static_cast<int>(j)])
-        for (const int dof : one.dofs)  // what a support holds, too, remains its own after a release
+        for (const int dof : one.dofs)  // what a support holds too does not count for a clamp that is released
           if (std::vector<int>& joints = joints_of[{place->body, one.node, dof}];
               joints.empty() || released == clamps(plan_.scene.joints[static_cast<std::size_t>(joints.front())]))
             joints.push_back(static_cast<int>(j));

@@ -31,7 +31,7 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
   ProbeHistory history;
   how.events = events_of(scene, model, how.end);
   how.kinks = kinks_of(scene, how.end);
-  bool jumps = false;  // velocities have, by an event or a drive
+  bool jumps = false;  // whether joints have changed, or speeds of drives jumped
   how.on_event = [&](const dynamics::EventReport& event) {
     if (event.switches) history.changes.push_back(event.name);
     jumps = jumps || event.switches || event.work;

@@ -21,10 +21,10 @@ class KeptMotion {
   void note(const solve::EventReport& event);
   double begin() const { return begin_; }
   const std::vector<JointChange>& changes() const { return changes_; }
-  /// The largest one of steps after these (solve::Instant).
+  /// The largest one of steps after these and after impulses (solve::Instant).
   double event_error() const { return event_error_; }
   /// Whether impulses have changed the velocities: at the start, to fit joints and drives, or where speeds of drives
-  /// jump. Other models answer to them with other velocities, which residuals at states do not show.
+  /// jump. Other models respond to them with other velocities, which residuals at states do not show.
   bool impulsive() const { return impulsive_ || model_.velocity_correction > 1e-3; }
   const std::vector<solve::State>& states() const { return states_; }
 

@@ -74,8 +74,8 @@ struct FinishedMotion {
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
                                const ErrorPart& mesh, double allowed);
 
-/// The error of the reduction where events change joints, for which estimate_error() has no equations: the full-order
-/// model (nlffr) of the same mesh is simulated, in the same steps,
+/// The error of the reduction where events change joints or impulses velocities, for which estimate_error() has no
+/// equations: the full-order model (nlffr) of the same mesh is simulated, in the same steps,
 ///
 ///   e_reduction = y_nlffr - y     at every instant, of every probe column
 ///
