@@ -512,10 +512,10 @@ bodies:
   }
 }
 
-// A thin ring about its axis, held by the mean of all its nodes: in-plane bending with n waves, inextensional (Bryan
-// 1890), w = +- 2 n/(n^2 + 1) Omega + sqrt(w_0^2 + (n (n^2 - 1)/(n^2 + 1) Omega)^2), w_0^2 = n^2 (n^2 - 1)^2/(n^2 + 1)
-// EI/(rho A R^4). The axes of the mean have no mass: their stiffness, round-off, must not scale them.
-TEST_CASE("campbell: a rotating ring of shells, held by its mean") {
+// A thin ring about its axis, supported by the mean of all its nodes: in-plane bending with n waves, inextensional
+// (Bryan 1890), w = +- 2 n/(n^2 + 1) Omega + sqrt(w_0^2 + (n (n^2 - 1)/(n^2 + 1) Omega)^2), w_0^2 = n^2 (n^2 -
+// 1)^2/(n^2 + 1) EI/(rho A R^4). The axes of the mean have no mass: their stiffness, round-off, must not scale them.
+TEST_CASE("campbell: a rotating ring of shells, supported by its mean") {
   const double R = 0.5, t = 0.01, E = 7e10, rho = 2700;
   const auto at = [&](double x, double y) {
     return Eigen::Vector3d(R * std::cos(2 * M_PI * y), R * std::sin(2 * M_PI * y), 0.02 * (x - 0.5));
