@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr const char* format = "floe checkpoint";
-constexpr int version = 6;
+constexpr int version = 7;
 
 /// FNV-1a, 64 bits, of the index and the numbers.
 std::int64_t checksum(const std::string& index, const std::vector<double>& data) {

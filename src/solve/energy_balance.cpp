@@ -56,8 +56,10 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
     const auto [power, dissipated] = powers(system, t, 1e-3 * h, U, V, A);
     const double dissipation = std::max(0.0, dissipated);
     if (known_ == 0) power_ = power, dissipation_ = dissipation;
-    work_ += 0.5 * h * (power_ + power);
-    dissipated_ += 0.5 * h * (dissipation_ + dissipation);
+    const double external = work_ + dissipated_ + 0.5 * h * (power_ + dissipation_ + power + dissipation);
+    const double lost = std::max(0.0, external - (energy - start_) - lost_in_impulses_);
+    dissipated_ = std::min(dissipated_ + 0.5 * h * (dissipation_ + dissipation), lost);
+    work_ = external - dissipated_;
     turnover_ += 0.5 * h * (std::abs(power_) + std::abs(power));
     level_ = energy - start_ - work_ - dissipated_;
     lowest_ = std::min(lowest_, level_);
@@ -70,21 +72,21 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
   ++count_, t_ = t;
 }
 
-void EnergyBalance::pass_event(double energy) {
-  work_ += energy, turnover_ += std::abs(energy);
+void EnergyBalance::pass_event(double gained, double lost) {
+  work_ += gained, turnover_ += std::abs(gained), lost_in_impulses_ += lost;
   known_ = 0;
   lowest_ = level_;
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_,      t_,        known_,  power_, dissipation_, start_,     work_,
-          dissipated_, turnover_, growth_, level_, lowest_,      accounted_, beyond_};
+  return {count_,  t_,     known_,  power_,     dissipation_, start_,           work_, dissipated_, turnover_,
+          growth_, level_, lowest_, accounted_, beyond_,      lost_in_impulses_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], known_ = saved[2], power_ = saved[3], dissipation_ = saved[4];
   start_ = saved[5], work_ = saved[6], dissipated_ = saved[7], turnover_ = saved[8], growth_ = saved[9];
-  level_ = saved[10], lowest_ = saved[11], accounted_ = saved[12], beyond_ = saved[13];
+  level_ = saved[10], lowest_ = saved[11], accounted_ = saved[12], beyond_ = saved[13], lost_in_impulses_ = saved[14];
 }
 
 }  // namespace floe::solve

@@ -16,8 +16,10 @@ using namespace dynamics;
 /// met. P_d = max(0, 1/2 v.(F(v) - F(-v))) is what dampers and friction dissipate: forces of inertia are even in v. So
 /// P + P_d is the power of loads and drives, and dissipation lets X only fall, however badly samples of P_d integrate
 /// (vibrations that steps do not resolve, friction that changes its sign from step to step). What loads along the
-/// velocity feed in, beyond what is dissipated, is in P. X counts from the last instant before an event on.
-/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
+/// velocity feed in, beyond what is dissipated, is in P. What dampers have
+/// dissipated is at most what the motion has lost: of vibrations that die out within a step P_d at its ends is far
+/// more. X counts from the last instant before an event on. The integrator takes energy away and adds none; a motion
+/// whose energy grows by itself is none.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Bases of attitudes and U are afterwards as before.
@@ -26,8 +28,9 @@ class EnergyBalance {
   /// @param max_part  maximum of its parts so far
   void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part);
   /// An event, where the power jumps: W over the step that contains it is h times the power at the step's end, not the
-  /// trapezoidal rule. `energy` [J]: what impulses of drives bring there, which belongs to W.
-  void pass_event(double energy);
+  /// trapezoidal rule. `gained` [J]: what impulses of drives bring there, which belongs to W; `lost`: in impulses of
+  /// joints.
+  void pass_event(double gained, double lost);
   double work() const { return work_; }          ///< W [J]
   double growth() const { return growth_; }      ///< [J]
   double turnover() const { return turnover_; }  ///< int |P| dt [J]
@@ -37,7 +40,7 @@ class EnergyBalance {
   static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 14;
+  static constexpr int numbers = 15;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
@@ -45,6 +48,7 @@ class EnergyBalance {
   double count_ = 0, t_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double power_ = 0, dissipation_ = 0;    // P and P_d of the instant before
   double start_ = 0, work_ = 0, dissipated_ = 0, turnover_ = 0, growth_ = 0;
+  double lost_in_impulses_ = 0;        // of joints [J]
   double level_ = 0, lowest_ = 0;      // X of the instant before, and its minimum
   double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
