@@ -169,14 +169,22 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
   PetscFunctionReturn(0);
 }
 
+// The distance that a step from rest without a force is judged by: of the longest attempt that resolves the load, for
+// with one that grows as t^p, p >= 1, distances fall at least with the cube of the step.
+void note_start(GeneralizedAlpha* data) {
+  const PetscReal ratio = data->start_h / data->h;
+  if (data->start_reach > 0 && ratio * ratio * ratio * data->reach_tried <= 1.5 * data->start_reach) return;
+  data->start_reach = data->reach_tried;
+  data->start_h = data->h;
+}
+
 }  // namespace
 
 // Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
 // sqrt(sum M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as
-// about an equilibrium, moves by round-off. -1 (not known) while nothing has moved, and in the first step from
-// rest without a force, where the distance is of the size of the error whatever the step: at the start of the motion
-// this step has the length that was given, later a thousandth of the steps at rest. The power of h in the estimate is
-// 3, which is what TSAdapt calls order (the scheme is of order 2).
+// about an equilibrium, moves by round-off. -1 (not known) while nothing has moved. In the first step from rest without
+// a force the distance is of the size of the error whatever the step: that of a longer attempt counts (note_start). The
+// power of h in the estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscReal least = 1e-9;
@@ -197,10 +205,10 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
   data->reach_tried = PetscSqrtReal(sums[1]);
-  const PetscReal reach = PetscMax(PetscMax(data->reach, data->reach_tried), least * PetscSqrtReal(sums[2]));
-  const bool known = reach > 0 && !data->from_rest;
-  *error = known ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
-  if (data->from_rest && ts->steps > 0 && data->reach_tried > 0 && data->h > 1.1e-3 * data->rest_step) *error = 1e9;
+  if (data->from_rest) note_start(data);
+  const PetscReal moved = PetscMax(data->reach, data->reach_tried);
+  const PetscReal reach = PetscMax(PetscMax(moved, data->start_reach), least * PetscSqrtReal(sums[2]));
+  *error = reach > 0 ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
   *order = 3;
   PetscFunctionReturn(0);
 }

@@ -99,9 +99,9 @@ PetscErrorCode mark_origin(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  if (ts->steps == 0) {
+  if (!data->started) {
     PetscCall(VecCopy(data->U0, data->origin));
-    data->reach = 0;
+    data->reach = data->start_reach = 0;
   }
   PetscCall(note_rest(ts));
   PetscFunctionReturn(0);
@@ -258,7 +258,6 @@ PetscErrorCode note_rest(TS ts) {
   PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
   PetscCall(VecNorm(data->A0, NORM_INFINITY, &acceleration));
   if (speed == 0 && acceleration == 0) data->from_rest = PETSC_TRUE;
-  if (data->from_rest && data->rest_step == 0) data->rest_step = ts->time_step;
   PetscFunctionReturn(0);
 }
 

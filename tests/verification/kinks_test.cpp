@@ -206,7 +206,7 @@ TEST_CASE("an angle that jumps is refused, and so is an infinite speed") {
 }
 
 // A bar at rest on a slider under a force that begins later: x = F (t - 1)^4/12 m; nothing measures the first steps.
-// Of F sin(w t), begun at 1.0037, x = F (T - sin(w T)/w)/(m w), whatever the step at rest.
+// Of F sin(w t), begun at 1.0037 or at the start, x = F (T - sin(w T)/w)/(m w), whatever the step at rest.
 TEST_CASE("adaptive steps of a motion that rests until a load begins") {
   const auto moved = [](const std::string& by, const char* step) {
     return move(fill(R"yaml(
@@ -226,6 +226,8 @@ probes: {x: {at: b.centre, quantity: displacement}}
   for (const char* step : {"1e-3", "2e-2"})
     CHECK(moved("t > 1.0037 ? 5*sin(200*(t - 1.0037)) : 0", step) ==
           Approx(5 * (T - std::sin(w * T) / w) / (2 * w)).epsilon(1e-2));
+  for (const char* step : {"1e-3", "2e-2", "0.5"})
+    CHECK(moved("5*sin(200*t)", step) == Approx(5 * (3 - std::sin(w * 3) / w) / (2 * w)).epsilon(1e-2));
 }
 
 // A parallelogram at rest: its equations are singular where all coordinates are zero, with its bars in line.
