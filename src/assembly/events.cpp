@@ -126,7 +126,7 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
     out.name = fmt::format("{}.{}", stop.joint, side);
     out.what = fmt::format("joint {} hits its {} limit", stop.joint, side);
     out.what_back = fmt::format("joint {} leaves its {} limit", stop.joint, side);
-    out.gap = [&model, i](double, Vec U, Vec V) { return stop_gap(model, i, U, V); };
+    out.gap = [&model, i](double t, Vec U, Vec V) { return stop_gap(model, i, t, U, V); };
     events.push_back(std::move(out));
   }
   return events;

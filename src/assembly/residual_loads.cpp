@@ -89,7 +89,7 @@ Residuals::Lifted Residuals::lifted(const State& state) {
   const dynamics::System& system = *full_.system;
   Lifted one{state.t, {}, {}, {}, {}, system.create_vector()};
   lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_, relieved_);
-  system.rebase(U_);
+  system.rebase(U_, V_, state.t);
   system.residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, one.F);
   if (!apart()) return one;
   system.gather(U_, one.q), system.gather(V_, one.v), system.gather(A_, one.a);

@@ -24,7 +24,7 @@ void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::St
   if (std::isfinite(limits.upper)) all.push_back({joint.name, true, term});
 }
 
-std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) {
+std::array<double, 2> stop_gap(const Model& model, std::size_t i, double t, Vec U, Vec V) {
   std::array<double, 2> gap{};
   Eigen::VectorXd q, v;
   model.system->gather(U, q), model.system->gather(V, v);
@@ -37,7 +37,7 @@ std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) 
     const dynamics::Stop& stop = *model.stops[i].term;
     const Eigen::VectorXd own = q(stop.coordinates()), rates = v(stop.coordinates()),
                           none = Eigen::VectorXd::Zero(own.size());
-    const dynamics::Motion motion{0, own, rates, none};
+    const dynamics::Motion motion{t, own, rates, none};
     const auto [x, rate] = stop.at(motion);
     gap = model.stops[i].upper ? std::array{stop.law().upper - x, -rate} : std::array{x - stop.law().lower, rate};
   }
@@ -47,7 +47,7 @@ std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) 
 
 std::vector<double> stop_gaps(const Model& model, Vec U) {
   std::vector<double> gaps;
-  for (std::size_t i = 0; i < model.stops.size(); ++i) gaps.push_back(stop_gap(model, i, U, U)[0]);
+  for (std::size_t i = 0; i < model.stops.size(); ++i) gaps.push_back(stop_gap(model, i, 0, U, U)[0]);
   return gaps;
 }
 

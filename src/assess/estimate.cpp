@@ -116,7 +116,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   for (const State& state : motion.states()) {  // one after another, as joints count their turns
     State& lifted = states.emplace_back(lifted_to_more_columns(state, reduced, more));
     solve::set_state(system, lifted, U, V, A);
-    system.rebase(U);
+    system.rebase(U, V, lifted.t);
     system.save(lifted.carried);
   }
   const auto values = [&](const State& state) {

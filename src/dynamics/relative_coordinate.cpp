@@ -83,7 +83,7 @@ RelativeCoordinate::Value SpatialCoordinate::see(const Motion& motion) {
   velocity_ << one.velocity, one.spin, two.velocity, two.spin;
   switch (of_) {
     case Of::rotation: {
-      const Twist t = twist(pair_, nearest_);
+      const Twist t = twist(pair_, revolutions_.expected(motion.t));
       x += t.angle;
       gradient_.segment<3>(3) = -t.h, gradient_.segment<3>(9) = t.h;
       for (int j = 0; j < 2; ++j) {
@@ -136,7 +136,7 @@ Wrench SpatialCoordinate::on_second(double force) const { return force * gradien
 void SpatialCoordinate::begin_step(const Motion& motion) {
   if (of_ != Of::rotation) return;
   pair_.evaluate(motion);
-  nearest_ = twist(pair_, nearest_).angle;
+  begin(revolutions_, pair_, motion.t);
 }
 
 }  // namespace floe::dynamics

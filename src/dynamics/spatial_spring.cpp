@@ -75,38 +75,38 @@ void add_torsion(const SpatialSpringProperties& p, const Twist& t, Matrix12& Y, 
 }  // namespace
 
 SpatialSpring::SpatialSpring(SpatialMarker first, SpatialMarker second, SpatialSpringProperties properties)
-    : pair_(std::move(first), std::move(second)), properties_(properties), nearest_(properties.angle) {}
+    : pair_(std::move(first), std::move(second)), properties_(properties), revolutions_(properties.angle) {}
 
 void SpatialSpring::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.evaluate(motion);
-  pair_.add(wrench_of(properties_, pair_, nearest_), r);
+  pair_.add(wrench_of(properties_, pair_, revolutions_.expected(motion.t)), r);
 }
 
 Wrench SpatialSpring::on_second(const Motion& motion) const {
   pair_.evaluate(motion);
-  return -wrench_of(properties_, pair_, nearest_).tail<6>();
+  return -wrench_of(properties_, pair_, revolutions_.expected(motion.t)).tail<6>();
 }
 
 void SpatialSpring::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   pair_.evaluate(motion);
   Matrix12 Y = Matrix12::Zero(), Yd = Matrix12::Zero();
   add_line(properties_, line(pair_), Y, Yd);
-  if (torsional(properties_)) add_torsion(properties_, twist(pair_, nearest_), Y, Yd);
-  pair_.add_tangent(wrench_of(properties_, pair_, nearest_), Y, Yd, weights, J);
+  if (torsional(properties_)) add_torsion(properties_, twist(pair_, revolutions_.expected(motion.t)), Y, Yd);
+  pair_.add_tangent(wrench_of(properties_, pair_, revolutions_.expected(motion.t)), Y, Yd, weights, J);
 }
 
 Energy SpatialSpring::energy(const Motion& motion) const {
   pair_.evaluate(motion);
   const SpatialSpringProperties& p = properties_;
   const double stretch = line(pair_).length - p.length;
-  const double rotated = torsional(p) ? twist(pair_, nearest_).angle - p.angle - p.rest : 0;
+  const double rotated = torsional(p) ? twist(pair_, revolutions_.expected(motion.t)).angle - p.angle - p.rest : 0;
   return {0, 0.5 * p.stiffness * stretch * stretch + 0.5 * p.torsional_stiffness * rotated * rotated, 0};
 }
 
 void SpatialSpring::begin_step(const Motion& motion) {
   if (!torsional(properties_)) return;
   pair_.evaluate(motion);
-  nearest_ = twist(pair_, nearest_).angle;
+  begin(revolutions_, pair_, motion.t);
 }
 
 }  // namespace floe::dynamics

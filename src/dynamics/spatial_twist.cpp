@@ -26,4 +26,9 @@ Twist twist(const SpatialPair& pair, double nearest) {
           {-skew(z1) / aligned - shared, -skew(z2) / aligned + shared}};
 }
 
+void begin(Revolutions& revolutions, const SpatialPair& pair, double t) {
+  const double rate = twist(pair, 0).rate;
+  revolutions.begin(t, twist(pair, revolutions.expected(t, rate)).angle, rate);
+}
+
 }  // namespace floe::dynamics

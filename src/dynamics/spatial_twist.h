@@ -1,4 +1,5 @@
 #pragma once
+#include "floe/dynamics/revolutions.h"
 #include "floe/dynamics/spatial_pair.h"
 
 namespace floe::dynamics {
@@ -13,5 +14,8 @@ struct Twist {
 /// @param nearest  the angle is the one within half a turn of this
 /// @throws RunError  z_2 = -z_1: there is no twist
 Twist twist(const SpatialPair& pair, double nearest);
+
+/// A step begins at a motion that the pair was evaluated at (Term::begin_step).
+void begin(Revolutions& revolutions, const SpatialPair& pair, double t);
 
 }  // namespace floe::dynamics

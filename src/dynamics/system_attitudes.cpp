@@ -24,7 +24,7 @@ double System::greatest_node_rotation(Vec U) const {
   return greatest;
 }
 
-void System::rebase(Vec U) const {
+void System::rebase(Vec U, Vec V, double t) const {
   if (!has_attitudes_) return;
   gather(U, local_.q);
   petsc::Values owned(U);
@@ -33,21 +33,22 @@ void System::rebase(Vec U) const {
     for (int i = 0; i < 3; ++i) set_owned(coordinates_, owned, first + i, 0);
     local_.q.segment<3>(first).setZero();
   }
-  begin_terms();
+  begin_terms(V, t);
 }
 
-void System::commit_step(Vec U) const {
+void System::commit_step(Vec U, Vec V, double t) const {
   gather(U, local_.q);
-  begin_terms();
+  begin_terms(V, t);
 }
 
-/// Every term begins a step at local_.q.
-void System::begin_terms() const {
+/// Every term begins a step at local_.q and the velocities V.
+void System::begin_terms(Vec V, double t) const {
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
+  if (V) gather(V, local_.v);
   petsc::agree_if_parallel(comm(), whole_, [&] {
     for (const auto& term : terms_) {
       const TermWork& w = pick(*term);
-      term->begin_step({0, w.q, w.v, w.a});
+      term->begin_step({t, w.q, w.v, w.a});
     }
   });
 }

@@ -10,7 +10,7 @@ EventReport apply_event(const System& system, const Event& event, double t, Vec 
   report.switches = true;
   const double before = system.energy(t, U, V).kinetic;
   event.constraint_switch->closed = event.closes;
-  system.commit_step(U);
+  system.commit_step(U, V, t);
   const petsc::VecHandle impulses = system.create_vector();
   try {
     consistent_velocities(system, t, U, V, impulses);

@@ -4,7 +4,7 @@
 
 namespace floe::solve {
 
-AtBase::AtBase(const System& system, Vec U) : system_(system), U_(U) {
+AtBase::AtBase(const System& system, Vec U, Vec V, double t) : system_(system), U_(U) {
   if (!system.has_attitudes()) return;
   {
     petsc::Values values(U);
@@ -16,7 +16,7 @@ AtBase::AtBase(const System& system, Vec U) : system_(system), U_(U) {
       }
     }
   }
-  system.rebase(U);
+  system.rebase(U, V, t);
 }
 
 AtBase::~AtBase() {

@@ -9,7 +9,7 @@ using namespace dynamics;
 /// bases and unknowns are as before, to the bit. Collective.
 class AtBase {
  public:
-  AtBase(const System& system, Vec U);
+  AtBase(const System& system, Vec U, Vec V, double t);
   ~AtBase();
   AtBase(const AtBase&) = delete;
   AtBase& operator=(const AtBase&) = delete;

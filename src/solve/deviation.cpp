@@ -120,7 +120,7 @@ class Follower {
   /// d of one more state. @return false  not converged
   bool step(const State& known, const Scheme& by, double h) {
     set_state(system_, known, U_, V_, A_);
-    system_.rebase(U_);  // springs take over their rotations
+    system_.rebase(U_, V_, known.t);  // springs take over their rotations
     VectorXd d = last_.d + h * last_.rate;
     if (!newton(known, by, d) && !newton(known, by, d = last_.d, true)) return false;
     last_ = with_rates(by, d);

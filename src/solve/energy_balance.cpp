@@ -29,7 +29,7 @@ struct Powers {
 };
 
 Powers powers(const System& system, double t, double interval, Vec U, Vec V, Vec A) {
-  const AtBase at_base(system, U);
+  const AtBase at_base(system, U, V, t);
   const petsc::VecHandle v = without_multipliers(system, V), a = without_multipliers(system, A);
   const petsc::VecHandle q = system.create_vector(), rate = system.create_vector(), F = system.create_vector();
   double rates = 0;

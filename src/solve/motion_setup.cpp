@@ -54,9 +54,15 @@ petsc::IsHandle frame_angles(const System& system, Vec U) {
   return set;
 }
 
-PetscErrorCode rebase_rotations(TS, Vec U, void* context) {
+PetscErrorCode rebase_rotations(TS ts, Vec U, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
-  return c.guard.run([&] { c.system.rebase(U); });
+  return c.guard.run([&] {
+    PetscReal t = 0;
+    Vec same = nullptr, V = nullptr;
+    check(TSGetTime(ts, &t));
+    check(TS2GetSolution(ts, &same, &V));
+    c.system.rebase(U, V, t);
+  });
 }
 
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {

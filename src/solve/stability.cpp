@@ -57,7 +57,7 @@ std::optional<int> negative_eigenvalues(Mat given) {
 }  // namespace
 
 std::optional<int> unstable_directions(const System& system, double t, Vec U, Vec V) {
-  const AtBase at_base(system, U);
+  const AtBase at_base(system, U, V, t);
   const petsc::MatHandle J = system.create_tangent();
   const petsc::VecHandle A = system.create_vector();
   double size = 0;

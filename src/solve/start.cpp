@@ -136,7 +136,7 @@ void keep_rows(const System& system, Vec f, bool multipliers) {
 }  // namespace
 
 void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
-  const AtBase at_base(system, U);
+  const AtBase at_base(system, U, V, t);
   keep_rows(system, U, false);
   check(VecSet(A, 0));
   const petsc::VecHandle F = system.create_vector();
@@ -149,7 +149,7 @@ void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
 double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec impulses) {
   if (impulses) check(VecSet(impulses, 0));
   if (system.coordinates().multiplier_count() == 0) return 0;
-  const AtBase at_base(system, U);
+  const AtBase at_base(system, U, V, t);
   const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
   system.residual(t, U, V, A, ConstraintLevel::velocity, F);
   keep_rows(system, F, true);

@@ -113,6 +113,25 @@ probes: {tip: {at: beam.end}, force: {joint: spring}}
 
 // x.. = (1 - x^2) x. - x: amplitude 2.008619861, period 6.663286859 of the limit cycle (Andersen & Geer, SIAM J. Appl.
 // Math. 42, 1982; Amore, Boyd & Fernandez 2018).
+// I phi'' = -(k + k) phi: phi = w/2 sin 2t, with 3.5 and 35 rad a step. Torsional spring, load and probe count alike.
+TEST_CASE("state loads: a rotor that rotates by several revolutions within a step") {
+  for (const double w : {3500., 35000.}) {
+    const auto columns = move(fill(R"yaml(
+bodies: {a: {rigid: {mass: 1, centre: [0, 0, 0], inertia: [.1, .1, .1]}, initial: {angular_velocity: [0, 0, $w]}}}
+joints:
+  d: {type: revolute, between: [ground, a.centre], axis: [0, 0, 1]}
+  k: {type: spring, between: [ground, a.centre], axis: [0, 0, 1], torsional_stiffness: .2}
+loads: {m: {type: moment, joint: d, moment: -.2*d.angle}}
+motion: {end: 1, step: 1e-3}
+probes: {angle: {joint: d, quantity: angle}, M: {joint: k, quantity: moment}}
+)yaml",
+                                   {{"w", fmt::format("{}", w)}}),
+                              Formulation::vm_md);
+    CHECK(columns["angle.value"].back() == Approx(w / 2 * std::sin(2.)).epsilon(1e-5));
+    CHECK(columns["M.z"].back() == Approx(-0.1 * w * std::sin(2.)).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("state loads: the limit cycle of van der Pol's oscillator has its amplitude and period") {
   const History at = move(R"yaml(
 bodies:

@@ -231,7 +231,7 @@ std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
 std::vector<double> stop_gaps(const Model& model, Vec U);
 /// One of them, and its rate. Collective.
-std::array<double, 2> stop_gap(const Model& model, std::size_t stop, Vec U, Vec V);
+std::array<double, 2> stop_gap(const Model& model, std::size_t stop, double t, Vec U, Vec V);
 /// How many bodies have a frame that moves in space.
 int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "floe/dynamics/marker_pair.h"
+#include "floe/dynamics/revolutions.h"
 #include "floe/dynamics/spatial_pair.h"
 
 namespace floe::dynamics {
@@ -35,7 +36,7 @@ class RelativeCoordinate {
   virtual void add_gradient(bool of_rate, Eigen::VectorXd& by_q, Eigen::VectorXd& by_v) = 0;
   /// What f on x exerts on the second place.
   virtual Wrench on_second(double force) const = 0;
-  /// Counts turns in space, as SpatialSpring does.
+  /// Counts revolutions in space (Revolutions).
   virtual void begin_step(const Motion&) {}
   virtual void save(std::vector<double>&) const {}
   virtual std::span<const double> load(std::span<const double> carried) { return carried; }
@@ -73,16 +74,14 @@ class SpatialCoordinate final : public RelativeCoordinate {
   void add_gradient(bool of_rate, Eigen::VectorXd& by_q, Eigen::VectorXd& by_v) override;
   Wrench on_second(double force) const override;
   void begin_step(const Motion& motion) override;
-  void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
-  std::span<const double> load(std::span<const double> carried) override {
-    nearest_ = carried.front();
-    return carried.subspan(1);
-  }
+  void save(std::vector<double>& carried) const override { revolutions_.save(carried); }
+  std::span<const double> load(std::span<const double> carried) override { return revolutions_.load(carried); }
 
  private:
   SpatialPair pair_;
   Of of_;
-  double start_, nearest_ = 0;
+  double start_;
+  Revolutions revolutions_;
   Vector12 gradient_ = Vector12::Zero(), velocity_ = Vector12::Zero();
   Matrix12 by_motion_ = Matrix12::Zero();  // change of the gradient with the virtual motions
 };

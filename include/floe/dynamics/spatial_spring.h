@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "floe/dynamics/revolutions.h"
 #include "floe/dynamics/spatial_pair.h"
 
 namespace floe::dynamics {
@@ -30,18 +31,18 @@ class SpatialSpring final : public Connection {
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
   Wrench on_second(const Motion& motion) const override;
-  /// Counts turns: from now on phi is the twist nearest to the present one; before the first call, nearest to `angle`.
+  /// Counts revolutions (Revolutions); before the first call, phi is the twist nearest to `angle`.
   ///
-  /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
-  /// a step, between evaluations. Within a step phi may change by less than 180 deg.
+  /// Positions determine phi only up to whole revolutions, and a term is a function of its motion: so they are counted
+  /// once a step, between evaluations.
   void begin_step(const Motion& motion) override;
-  void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
-  void load(std::span<const double> carried) override { nearest_ = carried.front(); }
+  void save(std::vector<double>& carried) const override { revolutions_.save(carried); }
+  void load(std::span<const double> carried) override { revolutions_.load(carried); }
 
  private:
   mutable SpatialPair pair_;
   SpatialSpringProperties properties_;
-  double nearest_;  // the twist is the one within 180 deg of this
+  Revolutions revolutions_;
 };
 
 /// Six springs and dampers in the axes of the first place.

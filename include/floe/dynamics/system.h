@@ -64,11 +64,11 @@ class System {
   /// The maximum rotation of a node (Attitude::of_node) from its base at U [rad]. Collective.
   double greatest_node_rotation(Vec U) const;
   /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration, at which every
-  /// term begins a step (Term::begin_step). Without attitudes nothing happens. Collective.
-  void rebase(Vec U) const;
+  /// term begins a step (Term::begin_step). Without attitudes nothing happens. V null: at rest. Collective.
+  void rebase(Vec U, Vec V = nullptr, double t = 0) const;
   /// Every term takes over the configuration U, as at the beginning of a step (Term::begin_step): after an event, so
   /// that what it closed holds what it finds. Collective.
-  void commit_step(Vec U) const;
+  void commit_step(Vec U, Vec V, double t) const;
   /// What bases and terms carry from step to step beside the unknowns, this rank's, into `numbers`; and back.
   /// @throws RunError  (load) so many numbers are those of another system. Rank-local.
   void save(std::vector<double>& numbers) const;
@@ -99,7 +99,7 @@ class System {
   TermWork& pick(const Term& term) const;
   void set_up_scatter();
   void set_up_corotated();
-  void begin_terms() const;
+  void begin_terms(Vec V, double t) const;
   enum class Which { all, constraining };
   /// Rows of local_'s motion into sum_. Collective.
   void add_rows(double t, ConstraintLevel level, Which which) const;

@@ -69,8 +69,8 @@ class Term {
   virtual ConstraintStatus constraint_status(const Motion&) const { return ConstraintStatus::satisfied; }
   /// Whether rows of its constraint were left out because others imply them: it may be violated without multipliers.
   virtual bool has_left_out_rows() const { return false; }
-  /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
-  /// and nowhere else. Of the motion only q counts. Called more than once for one step.
+  /// The configuration that a step begins from: what depends on the way there, as whole revolutions do, is taken over
+  /// here and nowhere else. Of the motion a does not count. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
   /// Appends which of its multipliers rotate with a frame: forces between places (System::rotate).
   virtual void add_corotated(std::vector<Corotated>&) const {}

@@ -128,6 +128,39 @@ TEST_CASE("a torsional spring follows its turns when it is told to, and knows ha
   CHECK(moment(spring, 21) == Approx(2 * 20.5).epsilon(1e-13));
 }
 
+// Of 200 rad/s, 20 rad are expected after 0.1 s; beginnings with 200 and 300 rad/s are 25 rad apart by their mean.
+TEST_CASE("a torsional spring counts several revolutions within a step, by its rate") {
+  SpatialSpring spring(SpatialMarker::ground({0, 0, 0}), rigid(), {0, 0, 0, 2, 0, 0});
+  const auto begin = [&](double t, double angle, double rate) {
+    State s = at_rest();
+    s.q[5] = angle, s.v[5] = rate;
+    spring.begin_step({t, s.q, s.v, s.a});
+  };
+  const auto moment = [&](double t, double angle) {
+    const State s = [&] {
+      State at = at_rest();
+      at.q[5] = angle;
+      return at;
+    }();
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(s.q.size());
+    spring.residual({t, s.q, s.v, s.a}, r);
+    return r[5];
+  };
+  begin(0, 2, 0);
+  begin(0, 2, 200);
+  CHECK(moment(0.1, 2 + 21) == Approx(2 * (2 + 21)).epsilon(1e-13));
+  CHECK(moment(0.1, 2 + 21 + 6 * M_PI) == Approx(2 * (2 + 21)).epsilon(1e-13));
+  begin(0.1, 2 + 24, 300);
+  CHECK(moment(0.1, 2 + 24) == Approx(2 * (2 + 24)).epsilon(1e-13));
+  std::vector<double> numbers;
+  spring.save(numbers);
+  SpatialSpring other(SpatialMarker::ground({0, 0, 0}), rigid(), {0, 0, 0, 2, 0, 0});
+  other.load(numbers);
+  State s = at_rest();
+  s.q[5] = 2 + 24 + 30;
+  CHECK(elastic(other, s) == Approx(elastic(spring, s)).epsilon(1e-14));
+}
+
 TEST_CASE("a torsional spring between opposite axes has no twist to work with") {
   const SpatialSpring spring(SpatialMarker::ground({0, 0, 0}), rigid(math::rotation({M_PI, 0, 0})), damped);
   CHECK_THROWS_AS(testing::rows_of(spring, at_rest()), RunError);
