@@ -38,8 +38,11 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     if (plan_.bodies[place.body].spec.rigid) return at;
     const body::PlaceMap map = place_map(plan_, reduced_[place.body], place);
     at.x0 = map.x;
-    at.S = map.S, at.Q = map.Q;
-    at.psi = map.psi, at.H = map.H;
+    at.S = map.S, at.psi = map.psi, at.H = map.H;
+    if (place.rigid_arm())
+      at.arm = place.averaging_weights.front().lead;
+    else
+      at.Q = map.Q;
     return at;
   }
   if (!sees_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
@@ -62,7 +65,8 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
       at.psi.col(6 * i + d) = weight.rotation.col(d - 3);
       at.S.col(6 * i + d) = weight.arm.col(d - 3);
     }
-    if (weight.lead.isZero(0)) continue;
+    if (place.rigid_arm()) at.arm = weight.lead;
+    if (place.rigid_arm() || weight.lead.isZero(0)) continue;
     if (at.Q.empty()) at.Q.assign(3, Eigen::MatrixXd::Zero(6 * n, 6 * n));
     Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
     for (int d = 0; d < 3; ++d) free(d, d) = holds(6 * weight.node + 3 + d) ? 0 : 1;

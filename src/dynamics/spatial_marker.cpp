@@ -38,9 +38,21 @@ Matrix3d form(const SpatialMarker& marker, const Vector3d& w) {
   return w[0] * marker.H[0] + w[1] * marker.H[1] + w[2] * marker.H[2];
 }
 
+bool has_arm(const SpatialMarker& marker) { return !marker.arm.isZero(0); }
+
 /// S(e).
 const Eigen::Matrix3Xd& directions(const SpatialMarker& marker, const SpatialPose& at) {
-  return marker.Q.empty() ? marker.S : at.S;
+  return marker.Q.empty() && !has_arm(marker) ? marker.S : at.S;
+}
+
+/// What an arm that rotates by beta has beyond its first order, b x arm. After D and bend.
+void see_arm(const SpatialMarker& marker, const Matrix3d& rotation, const Vector3d& b, SpatialPose& out) {
+  if (!has_arm(marker)) return;
+  out.arm = rotation * marker.arm;
+  out.c += out.arm - marker.arm - b.cross(marker.arm);
+  const Matrix3d change = skew(marker.arm) - skew(out.arm) * out.bend.transpose();
+  if (marker.Q.empty()) out.S = marker.S;
+  out.S.noalias() += change * marker.psi;
 }
 
 void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
@@ -73,16 +85,20 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
     out.c += 0.5 * out.S * own;
     out.S += marker.S;
   }
-  out.p = marker.mass * R + out.A * out.c;
-  out.D = out.A * marker.D0, out.bend = Matrix3d::Identity();
-  if (e.rotation.isZero(0)) return;
-  if (!marker.H.empty()) {
-    const Matrix3d H = change(marker, e.rotation);
-    out.beta += 0.5 * H * e.rotation, out.G = Matrix3d::Identity() + H;
+  Matrix3d rotation = Matrix3d::Identity();
+  out.bend = Matrix3d::Identity();
+  if (!e.rotation.isZero(0)) {
+    if (!marker.H.empty()) {
+      const Matrix3d H = change(marker, e.rotation);
+      out.beta += 0.5 * H * e.rotation, out.G = Matrix3d::Identity() + H;
+    }
+    rotation = math::rotation(out.beta);
+    out.bend = math::rotation_tangent(out.beta);
+    if (!marker.H.empty()) out.bend = (out.G.transpose() * out.bend).eval();
   }
-  out.D = out.A * math::rotation(out.beta) * marker.D0;
-  out.bend = math::rotation_tangent(out.beta);
-  if (!marker.H.empty()) out.bend = (out.G.transpose() * out.bend).eval();
+  see_arm(marker, rotation, e.rotation, out);
+  out.p = marker.mass * R + out.A * out.c;
+  out.D = out.A * rotation * marker.D0;
 }
 
 /// After see_place.
@@ -99,18 +115,19 @@ void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eig
   out.omega = w, out.beta_rate = ed.rotation;
   out.c_rate = w.cross(out.c) + ed.u;
   out.velocity = marker.mass * Rd + out.A * out.c_rate;
-  out.acceleration = marker.mass * Rdd + out.A * (alpha.cross(out.c) + w.cross(out.c_rate) + w.cross(ed.u) + edd.u);
   const Vector3d bending = out.bend.transpose() * ed.rotation;
   out.rotation = w + bending;
   out.spin = out.A * out.rotation;
-  Vector3d bending_rate = out.bend.transpose() * edd.rotation;
+  Vector3d centrifugal = Vector3d::Zero();  // of the bending's rate, what b.. does not contain
   if (!marker.H.empty()) {
     out.beta_rate = out.G * ed.rotation, out.H_rate = change(marker, ed.rotation);
-    bending_rate += math::rotation_tangent(-out.beta) * (out.H_rate * ed.rotation);
+    centrifugal += math::rotation_tangent(-out.beta) * (out.H_rate * ed.rotation);
   }
   // T' = T(-beta): d(T(-beta) b)/dbeta = -d(T(x) b)/dx at x = -beta
-  bending_rate -= rotation_tangent_derivative(-out.beta, out.beta_rate) * out.beta_rate;
-  out.spin_rate = out.A * (alpha + w.cross(bending) + bending_rate);
+  centrifugal -= rotation_tangent_derivative(-out.beta, out.beta_rate) * out.beta_rate;
+  if (has_arm(marker)) edd.u += centrifugal.cross(out.arm) + bending.cross(bending.cross(out.arm));
+  out.acceleration = marker.mass * Rdd + out.A * (alpha.cross(out.c) + w.cross(out.c_rate) + w.cross(ed.u) + edd.u);
+  out.spin_rate = out.A * (alpha + w.cross(bending) + out.bend.transpose() * edd.rotation + centrifugal);
 }
 
 }  // namespace
@@ -153,6 +170,11 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
   if (!marker.H.empty()) bent = (bent * at.G + at.A * math::rotation_tangent(-at.beta) * at.H_rate).eval();
   out.topRightCorner(3, k).noalias() = dragged * directions(marker, at);
   if (!marker.Q.empty()) out.topRightCorner(3, k).noalias() += at.A * at.Qed;
+  if (has_arm(marker)) {
+    const Matrix3d bending = skew(at.rotation - at.omega), arm = skew(at.arm);
+    const Matrix3d moved = -at.A * (arm * at.A.transpose() * bent + bending * arm * at.bend.transpose());
+    out.topRightCorner(3, k).noalias() += moved * marker.psi;
+  }
   out.bottomRightCorner(3, k).noalias() = bent * marker.psi;
 }
 
@@ -160,7 +182,7 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
                              Eigen::MatrixXd& K) {
   const Index k = marker.S.cols(), frame = marker.framed() ? 6 : 0;
   const Matrix3d f = weight * skew(at.A.transpose() * wrench.head<3>());
-  const Vector3d moment = weight * (at.A.transpose() * wrench.tail<3>());
+  Vector3d moment = weight * (at.A.transpose() * wrench.tail<3>());
   if (marker.framed()) {
     const Matrix3d m = skew(moment), of_x = at.bend * m * at.T, force_of_x = f * at.T;
     K.block<3, 3>(3, 3) += (skew(at.c) * f + m) * at.T;
@@ -174,10 +196,12 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
     const Vector3d force = weight * (at.A.transpose() * wrench.head<3>());
     for (int a = 0; a < 3; ++a) K.block(frame, frame, k, k) += force[a] * marker.Q[a];
   }
-  if (k == 0 || moment.isZero(0)) return;
+  if (has_arm(marker)) moment += at.arm.cross(weight * (at.A.transpose() * wrench.head<3>()));
+  if (k == 0 || (moment.isZero(0) && !has_arm(marker))) return;
   Matrix3d bent = rotation_tangent_derivative(at.beta, moment);
   if (!marker.H.empty())
     bent = (at.G.transpose() * bent * at.G + form(marker, math::rotation_tangent(at.beta) * moment)).eval();
+  if (has_arm(marker)) bent += at.bend * f * skew(at.arm) * at.bend.transpose();
   for (Index j = 0; j < k; ++j) {
     const Vector3d rotated = bent * marker.psi.col(j);
     K.col(frame + j).segment(frame, k) += marker.psi.transpose().lazyProduct(rotated);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "floe/math/rotation.h"
 #include "floe/plan/hold_at_frame.h"
 
 namespace floe::plan {
@@ -17,6 +18,15 @@ std::vector<AveragingWeight> Anchor::moved_by() const {
 bool Anchor::moved_by(PetscInt other) const {
   const std::vector<AveragingWeight> all = moved_by();
   return std::any_of(all.begin(), all.end(), [&](const AveragingWeight& weight) { return weight.node == other; });
+}
+
+bool Anchor::rigid_arm() const {
+  if (averaging_weights.size() != 1) return false;
+  const AveragingWeight& one = averaging_weights.front();
+  const double round_off = 1e-12 * one.lead.norm();
+  return round_off > 0 && std::abs(one.share - 1) < 1e-12 && one.turn.isZero(0) &&
+         (one.arm + math::skew(one.lead)).norm() <= round_off &&
+         (one.rotation - Eigen::Matrix3d::Identity()).norm() < 1e-12;
 }
 
 std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load) {

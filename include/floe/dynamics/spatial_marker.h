@@ -11,7 +11,8 @@ using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A place of a body in space, as joints and loads see it: its position and its axes as functions of the coordinates.
 ///
-///   p = mass * R + A (x0 + S e + 1/2 Q(e, e)),   D = A exp(~beta) D0,   beta = b + 1/2 H(b, b),   b = psi e
+///   p = mass * R + A (x0 + S e + 1/2 Q(e, e) + (exp(~beta) - 1 - ~b) arm),
+///   D = A exp(~beta) D0,   beta = b + 1/2 H(b, b),   b = psi e
 ///
 /// coordinates: the frame's six (R, x) when it is framed, then the elastic ones that S and psi refer to. A framed place
 /// has A = attitude(x); among the velocities of its coordinates the frame's angular velocity in its own axes stands for
@@ -29,6 +30,8 @@ struct SpatialMarker {
   std::vector<Eigen::MatrixXd> Q = {};                  ///< of second order: x, y, z, symmetric; empty: zero
   Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its rotation, 3 x k
   std::vector<Eigen::Matrix3d> H = {};                  ///< of its second order: x, y, z, symmetric; empty: zero
+  /// From a node to the place that follows it rigidly; its first order, -~arm psi, is in S.
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
   double mass = 1;
 
   bool framed() const { return attitude != nullptr; }
@@ -46,12 +49,13 @@ struct SpatialPose {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero(), spin_rate = Eigen::Vector3d::Zero();  ///< of D, in world axes
   Matrix6Xd P;                      ///< directions: (dp, dphi) of each coordinate, 6 x n, without T(x)
   Eigen::Matrix3d A, T;             ///< of the frame; T(x), or I when it stands still
-  Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e + 1/2 Q(e, e), and its velocity omega x c + S(e) e.
+  Eigen::Vector3d c, c_rate;        ///< body axes: p - mass * R, and its velocity omega x c + S(e) e.
   Eigen::Vector3d omega, rotation;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
   Eigen::Vector3d beta, beta_rate;
   Eigen::Matrix3d G, H_rate;  ///< dbeta/db = 1 + H b, and H b.; set only where H does not vanish
   Eigen::Matrix3d bend;       ///< G' T(beta)
-  Eigen::Matrix3Xd S, Qed;    ///< S(e) = S + Q e, Q e'; not set where Q vanishes
+  Eigen::Vector3d arm;        ///< exp(~beta) arm; set only where there is one
+  Eigen::Matrix3Xd S, Qed;    ///< S(e) = dc/de, set only where it depends on e; Q e', not set where Q vanishes
 };
 
 /// @param q, v, a  the marker's coordinates and rates
@@ -71,7 +75,9 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
 /// With f = A' w_f, m = A' w_m, in rows and columns (x, e):
 ///
 ///   theta   (~c ~f + ~m) T(x)                    -~f S
-///   e       (S' ~f + psi' G' T(beta) ~m) T(x)     psi' [G' d(T(beta) m)/dbeta G + T(beta) m . H] psi + f . Q
+///   e       (S' ~f + psi' G' T(beta) ~m) T(x)     psi' [G' d(T(beta) M)/dbeta G + T(beta) M . H + Z] psi + f . Q
+///
+/// with M = m + a x f, Z = G' T(beta) ~f ~a (G' T(beta))' of an arm a = exp(~beta) arm.
 void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, double weight,
                              Eigen::MatrixXd& K);
 

@@ -53,6 +53,8 @@ struct Anchor {
   /// Nodes whose dofs move the place; in the plane its one node.
   std::vector<AveragingWeight> moved_by() const;
   bool moved_by(PetscInt other) const;
+  /// In space: the nodes move as one node's point at an arm.
+  bool rigid_arm() const;
   /// In space: a node that follows another one but for rotations of its own, so that the dofs of neither hold it.
   bool rotates_apart() const { return nodes.size() == 1 && averaging_weights.size() > 1; }
 };

@@ -26,8 +26,22 @@ std::vector<SpatialMarker> markers() {
     const Matrix3d form = random.matrix(3, 3);
     turned.H.emplace_back(form + form.transpose());
   }
-  return {testing::spatial_marker(random, 0, testing::attitude(random), 3), weighted,
-          testing::still_marker(random, 0, 3), turned};
+  SpatialMarker curved = weighted, at_arm = turned, still = testing::still_marker(random, 0, 3);
+  for (int a = 0; a < 3; ++a) {
+    const Matrix3d form = random.matrix(3, 3);
+    curved.Q.emplace_back(form + form.transpose());
+  }
+  at_arm.arm = {0.7, -0.4, 1.1}, still.arm = {0.2, 0.9, -0.3};
+  SpatialMarker all = curved;
+  all.H = turned.H, all.arm = at_arm.arm;
+  return {testing::spatial_marker(random, 0, testing::attitude(random), 3),
+          weighted,
+          testing::still_marker(random, 0, 3),
+          turned,
+          curved,
+          at_arm,
+          still,
+          all};
 }
 
 SpatialPose pose_at(const SpatialMarker& marker, const State& s) {
@@ -62,8 +76,11 @@ TEST_CASE("a place in space lies and is turned as its formula says") {
     const Vector3d R = framed ? Vector3d(s.q.head<3>()) : marker.origin, e = s.q.tail<3>(), b = marker.psi * e;
     Vector3d beta = b;
     for (std::size_t a = 0; a < marker.H.size(); ++a) beta[static_cast<Eigen::Index>(a)] += b.dot(marker.H[a] * b) / 2;
-    CHECK((at.p - (marker.mass * R + A * (marker.x0 + marker.S * e))).norm() < 1e-14);
-    CHECK((at.D - A * Eigen::AngleAxisd(beta.norm(), beta.normalized()).toRotationMatrix() * marker.D0).norm() < 1e-14);
+    const Matrix3d bent = Eigen::AngleAxisd(beta.norm(), beta.normalized()).toRotationMatrix();
+    Vector3d c = marker.x0 + marker.S * e + bent * marker.arm - marker.arm - b.cross(marker.arm);
+    for (std::size_t a = 0; a < marker.Q.size(); ++a) c[static_cast<Eigen::Index>(a)] += e.dot(marker.Q[a] * e) / 2;
+    CHECK((at.p - (marker.mass * R + A * c)).norm() < 1e-14 * (1 + at.p.norm()));
+    CHECK((at.D - A * bent * marker.D0).norm() < 1e-14);
   }
 }
 
@@ -167,7 +184,8 @@ TEST_CASE("the geometric stiffness is the change of a wrench's rows, moments on 
       dynamics::add_geometric_stiffness(marker, pose_at(marker, s), w, 3, K);
       const MatrixXd expected = 3 * testing::jacobian(rows, s.q, 1e-3);
       CHECK((K - expected).cwiseAbs().maxCoeff() < 1e-8);
-      CHECK((marker.framed() || moment.norm() > 0) == (expected.norm() > 0.1));
+      const bool bends = marker.framed() || moment.norm() > 0 || marker.arm.norm() > 0;
+      CHECK(bends == (expected.norm() > 0.1));
     }
 }
 
