@@ -115,6 +115,9 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
                     "reduced formulation (vm+md, vm), fewer modes or a coarser mesh",
                     unknowns, solve::largest_rotating_system));
   solve::check_rotations(rotating, diagram.model.U);
+  if (given.motion.start != scene::Motion::Start::steady_rotation)  // which says so by itself
+    for (std::string& warning : assembly::drives_beside_rotation(given))
+      diagram.model.warnings.push_back(std::move(warning));
   const double started = MPI_Wtime();
   diagram.offline_seconds = started - begin;
   try {

@@ -87,6 +87,20 @@ solve::RotatingSystem rotating_system(const Scene& scene, const Model& model, co
   return rotating;
 }
 
+std::vector<std::string> drives_beside_rotation(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const Joint& joint : scene.joints) {
+    if (!is_drive(joint.kind) || rotations(joint)) continue;
+    const double rate = drive_of(joint, scene.motion).rate(0);
+    if (rate == 0) continue;
+    warnings.push_back(
+        fmt::format("joint {} moves at {:.4g} {} at t = 0, and is at rest in the steady rotation: its velocity and its "
+                    "gyroscopic moments are not part of it",
+                    joint.name, rate, joint.kind == Kind::driven ? "rad/s" : "m/s"));
+  }
+  return warnings;
+}
+
 void start_in_rotation(const Plan& plan, Model& model) {
   const std::string where = plan.scene.motion.where.text() + ".start";
   const Joint* hub = hub_of(plan.scene);
@@ -116,6 +130,7 @@ void start_in_rotation(const Plan& plan, Model& model) {
   } catch (const RunError& error) {
     throw RunError(where + ": " + error.what());
   }
+  for (std::string& warning : drives_beside_rotation(plan.scene)) model.warnings.push_back(std::move(warning));
   if (search.other > 0) model.warnings.push_back(where + ": " + solve::other_rotation(search.other));
   if (const solve::BranchJump& jump = search.jump; jump.ratio > 0)
     model.warnings.push_back(

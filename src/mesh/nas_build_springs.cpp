@@ -93,7 +93,7 @@ std::optional<NodeSpring> NasBuild::bush(const NasSpring& spring, const std::arr
     return std::nullopt;
   };
   if (spring.axes >= 0) {
-    result.axes = frames_.directions(spring.axes, x[0] + spring.at * along, spring.where);
+    result.axes = frames_.directions(spring.axes, x[0], spring.where);
     return result;
   }
   if (!(along.norm() > 1e-9 * extent())) return refuse(" has grids at one point; expected axes (CID)");

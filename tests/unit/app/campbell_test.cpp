@@ -206,3 +206,20 @@ TEST_CASE("campbell: vibrations are followed through a crossing by their shapes"
   CHECK(second.vibrations[0].assurance == Approx(1));
   CHECK(third.vibrations[0].track == 2);
 }
+
+TEST_CASE("campbell: drives that move beside the rotation are named, those to the ground are the rotation") {
+  const auto warnings = [](const std::string& inner) {
+    const CampbellDiagram found = diagram(
+        "bodies:\n  a: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}\n"
+        "  b: {rigid: {mass: 1, centre: [1, 0], inertia: 1}}\njoints:\n"
+        "  d: {type: driven, between: [ground, a.centre], angle: 3*t}\n"
+        "  i: {type: driven, between: [{body: a, node: [0.5, 0]}, {body: b, node: [0.5, 0]}], angle: " +
+            inner + "}\n",
+        Formulation::vm_md, at("3", 2));
+    std::string all;
+    for (const std::string& warning : found.model.warnings) all += warning + "\n";
+    return all;
+  };
+  CHECK_THAT(warnings("7*t"), Catch::Contains("joint i moves at 7 rad/s at t = 0") && !Catch::Contains("joint d"));
+  CHECK_THAT(warnings("7*t^2"), !Catch::Contains("moves at"));
+}

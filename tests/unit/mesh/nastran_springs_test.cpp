@@ -43,6 +43,16 @@ TEST_CASE("bushes of Nastran have axes of their own, of their line, or given one
                                        Contains("PBUSH B, GE is ignored: damping is that of the scene"));
 }
 
+TEST_CASE("cylindrical axes of a bush are those at its first grid") {
+  const auto file = read("cbush.bdf", square +
+                                          "CORD2C,5,,1.,0.,0.,1.,0.,1.\n,2.,0.,0.\nPBUSH,9,K,1.,2.,3.,4.,5.,6.\n"
+                                          "CBUSH,70,9,1,3,,,,5\nCBUSH,71,9,3,1,,,,5\n");
+  const auto springs = testing::of_all_ranks(file.deck.springs);
+  REQUIRE(springs.size() == 2);  // from (1, 0, 0) grid 1 lies along -x, grid 3 along y
+  CHECK((springs[0].axes.col(0) + Eigen::Vector3d::UnitX()).norm() < 1e-12);
+  CHECK((springs[1].axes.col(0) - Eigen::Vector3d::UnitY()).norm() < 1e-12);
+}
+
 TEST_CASE("rods and tubes of Nastran are beams without bending") {
   const auto file = read("rods.bdf", square +
                                          "CROD,70,9,1,3\nPROD,9,1,.01,2.-6,,3.\nCTUBE,71,10,2,4\nPTUBE,10,1,.1,.01\n"
