@@ -76,9 +76,8 @@ void warn(double speed, const std::vector<solve::State>& fastest, MPI_Comm comm,
 }
 
 void warn_of_branch(const CampbellPoint& point, CampbellDiagram& diagram) {
-  if (point.search.other > 0)
-    diagram.model.warnings.push_back(
-        fmt::format("at {:.6g} rad/s: {}", point.speed, solve::other_rotation(point.search.other)));
+  if (const std::string words = solve::other_rotation(point.search); !words.empty())
+    diagram.model.warnings.push_back(fmt::format("at {:.6g} rad/s: {}", point.speed, words));
   const solve::BranchJump& jump = point.search.jump;
   if (jump.ratio == 0) return;
   diagram.model.warnings.push_back(

@@ -18,6 +18,8 @@ using petsc::check;
 
 namespace {
 
+bool in_several_frames(const PlannedBody& body) { return body.spec.piece > 0; }
+
 bool holds(const Joint& joint) {
   return joint.kind != Joint::Kind::spring && joint.kind != Joint::Kind::bushing && joint.kind != Joint::Kind::distance;
 }
@@ -79,6 +81,34 @@ fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>
   return without_dependent(body.structure, constrained);
 }
 
+std::string damping_without_joints(const Plan& plan, int index, const ReducedBody& reduced) {
+  const PlannedBody& body = plan.bodies[index];
+  const bool of_file = body.spec.reduced.has_value();
+  if (of_file) {
+    const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+    if (!(reduced.damping.norm() > 1e-9 * reduced.strain_rate_damping * K.norm())) return "";
+  } else if (body.spec.damping.modal.empty() || in_several_frames(body) ||
+             body.frame.kind == fem::ReferenceFrame::Kind::clamped) {
+    return "";
+  }
+  const Joint* to_body = nullptr;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    for (const int side : {0, 1}) {
+      if (plan.joints[j][side].body != index || !holds(plan.scene.joints[j])) continue;
+      if (plan.joints[j][1 - side].ground()) return "";
+      if (of_file || plan.scene.joints[j].kind == Joint::Kind::fixed ||
+          plan.scene.joints[j].kind == Joint::Kind::driven)
+        to_body = &plan.scene.joints[j];
+    }
+  if (!to_body) return "";
+  return fmt::format(
+      "body {}: {} is that of the free body, without joint {} to another body: vibrations on this joint can be damped "
+      "far too little. damping.stiffness has no such limit, nor has damping.mass{}",
+      body.spec.name,
+      of_file ? "the mass-proportional and modal damping in " + body.spec.reduced->path : "damping.modal",
+      to_body->name, of_file ? " of a body with a mesh in the scene" : "");
+}
+
 fem::Conditions without_dependent(const fem::Structure& structure, const fem::Conditions& constrained) {
   const fem::Conditions dependent = fem::dependent_dofs(structure.mesh, structure.dofs_per_node);
   fem::Conditions own;
@@ -93,8 +123,6 @@ fem::ReferenceFrame damping_frame(const Plan& plan, int index) {
 }
 
 namespace {
-
-bool in_several_frames(const PlannedBody& body) { return body.spec.piece > 0; }
 
 /// Modal damping, as it came with the basis or the file, and alpha V'P'MPV.
 Eigen::MatrixXd constant_damping(const Plan& plan, int index, const ReducedBody& reduced) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "floe/assembly/body_stage.h"
+#include "floe/assembly/damping.h"
 #include "floe/assembly/mode_warnings.h"
 #include "floe/assembly/shared_reduction.h"
 #include "floe/fem/element_count.h"
@@ -81,6 +82,7 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
         "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
         body.spec.name, joint.name, constrained_here ? "modes: {of: joints}, or " : ""));
   }
+  if (std::string line = damping_without_joints(plan, index, {}); !line.empty()) warnings.push_back(std::move(line));
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (constrained_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(
@@ -319,6 +321,8 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     if (body.spec.reduced) {
       all[b] = from_file(body, formulation);
       if (std::string line = held_otherwise(plan, b); !line.empty()) warnings.push_back(std::move(line));
+      if (std::string line = damping_without_joints(plan, b, all[b]); !line.empty())
+        warnings.push_back(std::move(line));
       continue;
     }
     if (shared[b].of >= 0) {

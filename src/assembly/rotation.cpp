@@ -131,7 +131,8 @@ void start_in_rotation(const Plan& plan, Model& model) {
     throw RunError(where + ": " + error.what());
   }
   for (std::string& warning : drives_beside_rotation(plan.scene)) model.warnings.push_back(std::move(warning));
-  if (search.other > 0) model.warnings.push_back(where + ": " + solve::other_rotation(search.other));
+  if (const std::string words = solve::other_rotation(search); !words.empty())
+    model.warnings.push_back(where + ": " + words);
   if (const solve::BranchJump& jump = search.jump; jump.ratio > 0)
     model.warnings.push_back(
         fmt::format("{}: between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is "

@@ -149,6 +149,8 @@ std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Expone
       ++zeros;
     } else if (std::abs(s.imag()) <= 1e-9 * size) {
       if (const auto exact = confirmed(problem, s.real(), 0)) real.push_back(exact->real());
+    } else if (s.real() < 0 && std::abs(s.imag()) <= 1e-4 * size) {
+      real.push_back(s.real());  // a double root to round-off, and no vibration within 5e-9 of critical damping
     } else if (s.imag() > 0) {
       swings.push_back(s);
     }

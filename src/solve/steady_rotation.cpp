@@ -282,12 +282,18 @@ void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Ve
   set(V, rotating_motion(rotating, speed, gather_to_all(rotating.system, U)).V);
 }
 
-std::string other_rotation(double other) {
+std::string other_rotation(const RotationSearch& search) {
+  if (search.other == 0 && search.away > 0)
+    return fmt::format(
+        "the initial shape is not steady, and the steady rotation found is {:.2g} rad away from it; where another one "
+        "is intended, start from a shape (`initial`) within {} rad of it",
+        search.away, near_start);
+  if (search.other == 0) return "";
   return fmt::format(
       "the initial shape is not steady; the result is the steady rotation reached from rest. From the initial shape "
       "Newton's method finds another one, {:.2g} rad away; start from a shape (`initial`) within {} rad of the one "
       "intended",
-      other, near_start);
+      search.other, near_start);
 }
 
 PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, RotationSearch* search) {
@@ -299,6 +305,8 @@ PetscInt steady_rotation(const RotatingSystem& rotating, double from, double spe
     found.jump = follower.jump;
     if (!follower.follows() && speed != from && distance_to(rotating, speed, before, U) > near_start)
       iterations += search_from_steady(rotating, from, speed, before, U, found);
+    if (!follower.follows() && speed != from)
+      if (const double away = distance_to(rotating, speed, before, U); away > far_from_start) found.away = away;
     if (search) *search = found;
     return iterations;
   } catch (const RunError& error) {

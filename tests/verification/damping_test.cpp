@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "floe/assembly/reduced_bodies_file.h"
 #include "scene_motion.h"
 
 using namespace floe;
@@ -449,5 +450,40 @@ probes: {tip: {at: a.end}}
     CHECK(history.model.system->constraint_violation(0.5, history.model.U, history.model.V,
                                                      dynamics::ConstraintLevel::velocity) < 1e-3);
     CHECK(relative_error(history, other, "tip.y") < 0.01);
+  }
+}
+
+// A beam on a hub on the ground, damping that a file or its free modes have for the beam alone: a twentieth here.
+TEST_CASE("damping: what a joint to another body does not enter is named", "[verification]") {
+  const Scratch scratch;
+  const std::string file = (scratch.path / "beam.h5").string();
+  const auto mesh = [](const std::string& damping) {
+    return fill(
+        "{mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}, section: {EA: 1e4, EI: 1, rhoA: 1}, "
+        "reduction: {modes: 3}, damping: {$damping}}",
+        {{"damping", damping}});
+  };
+  const auto text = [](const std::string& beam, const std::string& joint) {
+    return "bodies: {hub: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}, beam: " + beam +
+           "}\njoints: {g: {type: fixed, between: [ground, hub.centre]}, j: {type: " + joint +
+           ", between: [hub.centre, beam.start]}}\nmotion: {end: 1, step: 0.1}\n";
+  };
+  const auto named = [&](const std::string& beam, const std::string& joint) {
+    const auto model =
+        assembly::build(scene::parse_scene(text(beam, joint), "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
+    return std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
+      return warning.find("is that of the free body, without joint j") != std::string::npos;
+    });
+  };
+  CHECK(named(mesh("modal: [0.01]"), "fixed"));
+  CHECK_FALSE(named(mesh("modal: [0.01]"), "revolute"));
+  CHECK_FALSE(named(mesh("mass: 1, stiffness: 1e-4"), "fixed"));
+  for (const bool mass : {true, false}) {
+    std::vector<std::string> warnings;
+    const std::string damping = mass ? "mass: 1, stiffness: 1e-4" : "stiffness: 1e-4";
+    assembly::reduce_body(scene::parse_scene(text(mesh(damping), "fixed"), "scene"), "beam", PETSC_COMM_WORLD, file,
+                          true, warnings);
+    CHECK(named("{reduced: " + file + "}", "fixed") == mass);
+    CHECK(named("{reduced: " + file + "}", "revolute") == mass);
   }
 }

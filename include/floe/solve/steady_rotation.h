@@ -51,6 +51,8 @@ struct RotationSearch {
   /// From a start that is not steady at `from`: how far away Newton's method finds another steady rotation, largest
   /// change of an unknown by mass, as the rotation of a frame [rad]. 0: there is none.
   double other = 0;
+  /// From such a start, how far away from it the result is, where this is further than `far_from_start`; else 0.
+  double away = 0;
 };
 
 /// The steady state F(0, U, V(U), A(U)) = 0 at `speed` [rad/s] by Newton's method from the one at `from`, in halved
@@ -68,9 +70,9 @@ struct RotationSearch {
 /// Collective, the same on every rank.
 PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U,
                          RotationSearch* search = nullptr);
-/// A warning of RotationSearch::other.
-std::string other_rotation(double other);
-inline constexpr double near_start = 0.1;  ///< [rad], as RotationSearch::other
+/// A warning of RotationSearch::other, or of `away`; empty: neither.
+std::string other_rotation(const RotationSearch& search);
+inline constexpr double near_start = 0.1, far_from_start = 0.5;  ///< [rad], as RotationSearch::other
 
 /// V = V(U) at `speed`; attitudes of U are their own bases afterwards. Collective.
 void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Vec V);

@@ -223,3 +223,29 @@ TEST_CASE("campbell: drives that move beside the rotation are named, those to th
   CHECK_THAT(warnings("7*t"), Catch::Contains("joint i moves at 7 rad/s at t = 0") && !Catch::Contains("joint d"));
   CHECK_THAT(warnings("7*t^2"), !Catch::Contains("moves at"));
 }
+
+// A mass on a string of 0.3 m, its cone at cos t = g/(W^2 l); let go 0.15 rad from it, Newton's method finds another.
+TEST_CASE("campbell: a steady rotation far from the shape that was given is reported") {
+  const auto found = [](double beside) {
+    const double cone = std::acos(9.81 / (100 * 0.3));
+    return diagram(fmt::format("gravity: [0, 0, -9.81]\n"
+                               "bodies:\n  a: {{rigid: {{mass: 1, centre: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}}}}\n"
+                               "  p: {{rigid: {{mass: 1, centre: [0, 0, -0.3], inertia: [1e-8, 1e-8, 1e-8]}}, "
+                               "initial: {{rotation: [0, {}, 0]}}}}\njoints:\n"
+                               "  d: {{type: driven, between: [ground, a.centre], axis: [0, 0, 1], speed: 10}}\n"
+                               "  h: {{type: revolute, between: [a.centre, {{body: p, node: [0, 0, 0]}}], "
+                               "axis: [0, 1, 0]}}\n",
+                               -(cone + beside)),
+                   Formulation::vm_md, at("10", 2));
+  };
+  const auto is_far = [](const CampbellDiagram& diagram) {
+    return std::any_of(diagram.model.warnings.begin(), diagram.model.warnings.end(), [](const std::string& warning) {
+      return warning.find("the steady rotation found is") != std::string::npos;
+    });
+  };
+  const CampbellDiagram near = found(0.01), far = found(0.15);
+  CHECK(near.points[0].vibrations.at(0).omega == Approx(10 * std::sqrt(1 - std::pow(9.81 / 30, 2))).epsilon(1e-4));
+  CHECK_FALSE(is_far(near));
+  REQUIRE(far.points[0].vibrations.at(0).unstable());
+  CHECK(is_far(far));
+}

@@ -154,6 +154,20 @@ TEST_CASE("a direction without mass decays") {
   CHECK(found[1].omega == Approx(3));
 }
 
+// (s + 50)^2, a double root to round-off, beside s^2 + 9.
+TEST_CASE("a decay whose oscillation is round-off is no vibration, a growth stays") {
+  Quadratic problem{Matrix2d::Identity(), Matrix2d::Zero(), Matrix2d::Zero()};
+  problem.C(0, 0) = 100, problem.K.diagonal() << 2500, 9;
+  const Exponents found{{-50, 2e-4}, {-50, -2e-4}, {0, 3}, {0, -3}};
+  const std::vector<Vibration> all = slowest_vibrations(mixed(problem), found, 1e-9, 1e-9, 1);
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].omega == Approx(3));
+  const std::vector<Vibration> more = slowest_vibrations(mixed(problem), found, 1e-9, 1e-9, 2);
+  REQUIRE(more.size() == 2);
+  CHECK(more[0].growth == Approx(-50));
+  CHECK(more[0].omega == 0);
+}
+
 TEST_CASE("exponents of nothing and growth by round-off go, what is true stays") {
   Quadratic problem = mixed(jeffcott(1, 1.2, 1.05));
   const std::vector<double> squares = jeffcott_squares(1, 1.2, 1.05);
