@@ -33,22 +33,23 @@ std::vector<std::string> notices_of(const std::string& path, long long left_out,
 
 }  // namespace
 
-GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std::string>& wanted_parts) {
+GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std::string>& wanted_parts, bool others) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   std::unique_ptr<Faults> faults;
   FileMesh file;
   long long left_out = 0, without_middle = 0;
+  std::vector<std::string> shared;
   petsc::agree(comm, [&] {
     const MappedFile mapped(path);
     const GmshStructure structure = gmsh_structure(mapped);
     faults = std::make_unique<Faults>(structure.nodes.front().labels.binary);
     faults->add_file(path);
     refuse_too_many(structure, *faults);
-    const GmshSelection selection = select_parts(structure, wanted_parts, *faults);
+    const GmshSelection selection = select_parts(structure, {wanted_parts, others}, *faults);
     if (faults->any()) return;
-    left_out = selection.left_out, without_middle = selection.without_middle;
+    left_out = selection.left_out, without_middle = selection.without_middle, shared = selection.shared;
     file.parts = selection.parts;
     read_nodes(structure, share_of(static_cast<PetscInt>(structure.node_count), rank, ranks), file, *faults);
     read_elements(structure, selection, rank, ranks, file, *faults);
@@ -56,7 +57,9 @@ GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std
   faults->throw_together(comm);
   Numbered numbered = number_labels(comm, std::move(file), *faults);
   numbered.mesh.source = path;
-  return {std::move(numbered.mesh), notices_of(path, left_out, without_middle, numbered.dropped)};
+  std::vector<std::string> notices = notices_of(path, left_out, without_middle, numbered.dropped);
+  for (const std::string& words : shared) notices.push_back(path + ": " + words);
+  return {std::move(numbered.mesh), std::move(notices)};
 }
 
 }  // namespace floe::mesh

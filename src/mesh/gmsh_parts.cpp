@@ -60,7 +60,7 @@ void make_part(const GmshStructure& structure, GmshSelection& selection, const s
     if (selection.uses[b].part >= 0)
       faults.add(block.begin.where(place), "these elements belong to two parts, " +
                                                in_quotes(selection.parts[selection.uses[b].part]) + " and " +
-                                               in_quotes(name) + ": specify one of them");
+                                               in_quotes(name) + ": give one of them a section");
     if (gmsh_type(block.type)->kind == CellKind::point)
       faults.add(block.begin.where(place),
                  "part " + in_quotes(name) + " has elements of type " + std::to_string(block.type) + " (" +
@@ -70,6 +70,25 @@ void make_part(const GmshStructure& structure, GmshSelection& selection, const s
     if (block.type == gmsh_nine_nodes) selection.without_middle += block.count;
     selection.uses[b].part = part;
   }
+}
+
+// Of a group's elements those that belong to no part yet.
+void make_part_of_rest(const GmshStructure& structure, GmshSelection& selection, const std::string& name,
+                       const std::vector<std::size_t>& blocks, Faults& faults) {
+  std::vector<std::size_t> rest;
+  std::map<std::string, long long> shared;
+  for (const std::size_t b : blocks)
+    if (const int part = selection.uses[b].part; part < 0)
+      rest.push_back(b);
+    else if (selection.parts[part] != name)
+      shared[selection.parts[part]] += structure.elements[b].count;
+  for (const auto& [part, count] : shared)
+    selection.shared.push_back("of group " + in_quotes(name) + " " + std::to_string(count) +
+                               (count == 1 ? " element belongs to part " : " elements belong to part ") +
+                               in_quotes(part) +
+                               " and has its section; in the scene's `parts` name the group that is "
+                               "to have them");
+  if (!rest.empty()) make_part(structure, selection, name, rest, faults);
 }
 
 // Without a list of parts: all groups of the highest dimension, or all its elements.
@@ -83,7 +102,7 @@ void take_highest(const GmshStructure& structure, GmshSelection& selection,
     if (structure.elements[b].entity.dimension == highest && structure.elements[b].count > 0) all.push_back(b);
   if (highest == 0) return;
   for (const auto& [group, blocks] : groups)
-    if (group.dimension == highest) make_part(structure, selection, name_of(structure, group), blocks, faults);
+    if (group.dimension == highest) make_part_of_rest(structure, selection, name_of(structure, group), blocks, faults);
   if (selection.parts.empty()) return make_part(structure, selection, "mesh", all, faults);
   for (const std::size_t b : all)
     if (selection.uses[b].part < 0) selection.left_out += structure.elements[b].count;
@@ -91,7 +110,7 @@ void take_highest(const GmshStructure& structure, GmshSelection& selection,
 
 }  // namespace
 
-GmshSelection select_parts(const GmshStructure& structure, const std::vector<std::string>& wanted, Faults& faults) {
+GmshSelection select_parts(const GmshStructure& structure, const WantedParts& wanted, Faults& faults) {
   GmshSelection selection;
   selection.uses.resize(structure.elements.size());
   const auto groups = blocks_of_groups(structure);
@@ -99,11 +118,9 @@ GmshSelection select_parts(const GmshStructure& structure, const std::vector<std
     const int place = place_of(selection, name_of(structure, group));
     for (const std::size_t b : blocks) selection.uses[b].places.push_back(place);
   }
-  if (wanted.empty())
-    take_highest(structure, selection, groups, faults);
-  else
-    for (const auto& group : wanted_groups(structure, wanted, groups, faults))
-      make_part(structure, selection, name_of(structure, group), groups.at(group), faults);
+  for (const auto& group : wanted_groups(structure, wanted.names, groups, faults))
+    make_part(structure, selection, name_of(structure, group), groups.at(group), faults);
+  if (wanted.others || wanted.names.empty()) take_highest(structure, selection, groups, faults);
   if (selection.parts.empty() && !faults.any())
     faults.add({0, 1}, "the file has no lines, triangles or quadrilaterals");
   return selection;

@@ -11,12 +11,19 @@ struct GmshUse {
 
 struct GmshSelection {
   std::vector<std::string> parts, places;
-  std::vector<GmshUse> uses;     // of each element block
-  long long left_out = 0;        // elements of the parts' dimension that are in no group
-  long long without_middle = 0;  // quadrilaterals of nine nodes
+  std::vector<GmshUse> uses;             // of each element block
+  long long left_out = 0;                // elements of the parts' dimension that are in no group
+  long long without_middle = 0;          // quadrilaterals of nine nodes
+  std::vector<std::string> shared = {};  // groups whose elements belong to other parts, in words
+};
+
+/// As read_gmsh has them.
+struct WantedParts {
+  const std::vector<std::string>& names;
+  bool others;
 };
 
 /// Chooses the blocks that become parts and places; see read_gmsh. Rank-local.
-GmshSelection select_parts(const GmshStructure& structure, const std::vector<std::string>& wanted, Faults& faults);
+GmshSelection select_parts(const GmshStructure& structure, const WantedParts& wanted, Faults& faults);
 
 }  // namespace floe::mesh

@@ -199,11 +199,36 @@ void read_transverse_shear(const InpBlock& block, InpReading& reading) {
                             ", those of first order do not shear");
 }
 
-// Sections of a named shape, by *BEAM SECTION, or in CalculiX by *BEAM GENERAL SECTION.
+/// The material of a *BEAM GENERAL SECTION, or its own density. @return its moduli are on its third line
+bool read_general_material(const InpBlock& block, BeamSection& section, InpReading& reading) {
+  section.material = value_of(block, "MATERIAL");
+  if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
+  if (block.parameters.contains("DENSITY")) section.density = number_of(block, "DENSITY", reading);
+  if (section.density.value_or(0) < 0)
+    reading.faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
+                                        in_quotes(value_of(block, "DENSITY")));
+  return section.material.empty();
+}
+
+void read_moduli(const std::pair<Where, std::string_view>& line, BeamSection& section, Faults& faults) {
+  const auto moduli = numbers(line.second, line.first, 2, 4, "E, G", faults);
+  if (!moduli) return;
+  section.youngs = (*moduli)[0];
+  section.shear = (*moduli)[1];
+  if (!(section.youngs > 0 && section.shear > 0)) faults.add(line.first, "E and G must be greater than 0");
+}
+
+// Sections of a named shape, by *BEAM SECTION, or by *BEAM GENERAL SECTION (Abaqus: with E and G, CalculiX: with a
+// material).
 void read_shape(const InpBlock& block, InpReading& reading) {
   BeamSection section = named_beam({}, block, reading);
-  section.material = required(block, "MATERIAL", reading);
-  if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
+  bool own = false;
+  if (block.keyword == "BEAMSECTION") {
+    section.material = required(block, "MATERIAL", reading);
+    if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
+  } else {
+    own = read_general_material(block, section, reading);
+  }
   const std::string name = upper(required(block, "SECTION", reading));
   if (block.parameters.contains("NODALTHICKNESS"))
     reading.faults.add(block.where, block.name +
@@ -219,7 +244,8 @@ void read_shape(const InpBlock& block, InpReading& reading) {
                                   (block.keyword == "BEAMSECTION" ? "" : ", or GENERAL") +
                                   (name.starts_with("ELLIP") ? "; an ellipse is CIRC with two diameters" : ""));
   section.profile = shape->profile;
-  const auto lines = data_lines(block, 1, 2, "dimensions and perhaps a direction", reading.faults);
+  const auto lines = own ? data_lines(block, 3, 3, "dimensions, a direction, and E G", reading.faults)
+                         : data_lines(block, 1, 2, "dimensions and perhaps a direction", reading.faults);
   if (lines.empty()) return;
   const auto values =
       numbers(lines[0].second, lines[0].first, shape->least, shape->most, shape->dimensions, reading.faults);
@@ -239,7 +265,8 @@ void read_shape(const InpBlock& block, InpReading& reading) {
                               " has one dimension: it is read as a square");
   }
   refuse_bad_dimensions(section, lines[0].first, reading.faults);
-  if (lines.size() == 2) read_direction(lines[1], section, reading.faults);
+  if (lines.size() > 1) read_direction(lines[1], section, reading.faults);
+  if (own) read_moduli(lines[2], section, reading.faults);
   reading.deck.beam_sections.push_back(section);
 }
 
@@ -251,13 +278,7 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   if (!shape.empty() && upper(shape) != "GENERAL") return read_shape(block, reading);
   BeamSection section = named_beam({}, block, reading);
   section.profile = Profile::general;
-  section.material = value_of(block, "MATERIAL");
-  if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
-  if (block.parameters.contains("DENSITY")) section.density = number_of(block, "DENSITY", reading);
-  if (section.density.value_or(0) < 0)
-    faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
-                                in_quotes(value_of(block, "DENSITY")));
-  const bool own = section.material.empty();
+  const bool own = read_general_material(block, section, reading);
   const auto lines =
       data_lines(block, own ? 3 : 1, own ? 3 : 2,
                  own ? "A I11 I12 I22 J, a direction, and E G" : "A I11 I12 I22 J, and a direction", faults);
@@ -269,13 +290,7 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   if (!(d[0] > 0 && d[1] > 0 && d[3] > 0 && d[4] > 0 && d[1] * d[3] > d[2] * d[2]))
     faults.add(lines[0].first, "A, I11, I22, J and I11 I22 - I12^2 must be greater than 0");
   if (lines.size() > 1) read_direction(lines[1], section, faults);
-  if (own) {
-    const auto moduli = numbers(lines[2].second, lines[2].first, 2, 4, "E, G", faults);
-    if (!moduli) return;
-    section.youngs = (*moduli)[0];
-    section.shear = (*moduli)[1];
-    if (!(section.youngs > 0 && section.shear > 0)) faults.add(lines[2].first, "E and G must be greater than 0");
-  }
+  if (own) read_moduli(lines[2], section, faults);
   reading.deck.beam_sections.push_back(section);
 }
 

@@ -48,12 +48,6 @@ std::vector<std::string> named_parts(const Body& body) {
   return names;
 }
 
-std::vector<std::string> wanted_parts(const Body& body) {
-  const std::vector<std::string> wanted = named_parts(body);
-  const bool rest = wanted.size() < body.parts.size();
-  return rest ? std::vector<std::string>() : wanted;
-}
-
 /// What the readers say of a file names its lines; that there is none concerns the scene. Collective.
 void refuse_missing(const Body& body, MPI_Comm comm) {
   int rank = 0, found = 1;
@@ -111,7 +105,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
              nastran = mesh::is_nastran(file.path);
   if (gmsh || inp || nastran) refuse_missing(body, comm);
   if (gmsh) {
-    mesh::GmshFile read = mesh::read_gmsh(comm, file.path, wanted_parts(body));
+    mesh::GmshFile read = mesh::read_gmsh(comm, file.path, request_of(body).parts, request_of(body).section);
     source = {std::move(read.mesh), {}, std::move(read.notices)};
   } else if (inp || nastran) {
     mesh::DeckFile read =

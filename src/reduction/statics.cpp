@@ -43,7 +43,9 @@ double Statics::factor_error() const {
 void Statics::factor() const {
   const petsc::Stage stage("factorisation");
   check(KSPSetUp(ksp_));
-  if (const std::string why = petsc::why_failed(ksp_); !why.empty()) throw RunError(why);
+  const petsc::FactorFault fault = petsc::factor_fault(ksp_);
+  if (fault.singular) throw too_fine(elements_->structure(), "its stiffness matrix is singular");
+  if (!fault.text.empty()) throw RunError(fault.text);
 }
 
 double Statics::measured_error() const {

@@ -17,11 +17,14 @@ struct GmshFile {
 /// Every rank walks the file and reads its own share of the records.
 /// @param wanted_parts  names of physical groups, in the order that RawMesh::parts then has. Empty: all groups of the
 ///   highest dimension that the file has elements of, or all elements of it as the part "mesh" where it has no groups.
+/// @param others  after the wanted parts all other groups of the highest dimension, too. Elements of several groups
+///   belong to the wanted one, else to the first by number, which a notice states.
 /// @throws InputError  the same on every rank, with line (ASCII) or byte (binary): anything that is not of the format;
 ///   formats 1 and 3; partitioned meshes; elements of wanted parts that are of another kind; parts that do not
 ///   exist, are empty or share a surface; labels that are defined twice, or used and not defined
 /// Collective.
 /// Source: Gmsh reference manual, "MSH file format".
-GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std::string>& wanted_parts = {});
+GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std::string>& wanted_parts = {},
+                   bool others = false);
 
 }  // namespace floe::mesh

@@ -119,6 +119,24 @@ TEST_CASE("without physical groups all elements of the highest dimension are one
   CHECK(testing::measure(raw, 0) == Approx(4.0));
 }
 
+TEST_CASE("elements of several physical groups belong to the part that is named, or to the first") {
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"skin\"\n2 5 \"patch\"\n$EndPhysicalNames\n"
+      "$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 1 0\n2 1 0 0 2 1 0 2 1 5 0\n$EndEntities\n"
+      "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n$EndNodes\n"
+      "$Elements\n2 2 1 2\n2 1 3 1\n1 1 2 3 4\n2 2 3 1\n2 2 5 6 3\n$EndElements\n";
+  const std::string path = written("overlap.msh", text);
+  const auto first = mesh::read_gmsh(PETSC_COMM_WORLD, path);
+  CHECK(first.mesh.parts == std::vector<std::string>{"skin"});
+  CHECK(testing::measure(first.mesh, 0) == Approx(2));
+  CHECK_THAT(first.notices.at(0), Contains("of group 'patch' 1 element belongs to part 'skin'"));
+  const auto named = mesh::read_gmsh(PETSC_COMM_WORLD, path, {"patch"}, true);
+  CHECK(named.mesh.parts == std::vector<std::string>{"patch", "skin"});
+  CHECK(testing::measure(named.mesh, 0) == Approx(1));
+  CHECK(testing::measure(named.mesh, 1) == Approx(1));
+  CHECK_THAT(testing::fault_of([&] { read(path, {"skin", "patch"}); }), Contains("give one of them a section"));
+}
+
 TEST_CASE("parts that cannot be made are refused") {
   const auto path = folder + "plate_msh41.msh";
   CHECK_THAT(testing::fault_of([&] { read(path, {"skim"}); }), Contains("'skim'") && Contains("did you mean skin?"));

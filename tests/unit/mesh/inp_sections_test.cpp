@@ -86,6 +86,17 @@ TEST_CASE("a general beam section has positive constants, and moduli of its own 
   CHECK(file.deck.beam_sections[0].shear == 6);
 }
 
+TEST_CASE("a general section of a shape has a material, or moduli and a density of its own") {
+  const std::string shape = "*BEAM GENERAL SECTION, ELSET=B, SECTION=RECT";
+  const auto own = deck(beam(shape + ", DENSITY=7\n1, 2\n1, 0, 0\n5, 6\n")).deck.beam_sections.at(0);
+  CHECK(own.dimensions == std::vector<double>{1, 2});
+  CHECK(own.youngs == 5);
+  CHECK(own.shear == 6);
+  CHECK(own.density.value() == 7);
+  CHECK(deck(beam(shape + ", MATERIAL=M\n1, 2\n")).deck.beam_sections.at(0).material == "M");
+  CHECK_THAT(said(beam(shape + "\n1, 2\n1, 0, 0\n")), Contains("dimensions, a direction, and E G"));
+}
+
 TEST_CASE("plies: each has a thickness and a material; symmetric ones follow in reverse") {
   const std::string laminate = "*SHELL SECTION, ELSET=E, COMPOSITE";
   for (const char* ply : {"0, , M", "x, , M", ".1, , ", ".1, , M, 0, 1, 2", "-1, , M"})
