@@ -127,7 +127,7 @@ void Recorder::note(const dynamics::EventReport& event) {
   ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
   if (event.speed) j["speed"] = *event.speed;
   if (event.work) j["kinetic_energy_gained"] = *event.work;
-  balance_.pass_event(event.work.value_or(0), event.lost);
+  balance_.pass_event(event.work.value_or(0), event.lost, event.damped);
   if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost, j["impulses"] = event.impulses;
   result_.summary["events"].push_back(j);
 }

@@ -36,8 +36,12 @@ void begin_motion(const Plan& plan, Model& model) {
   }
   if (scene.motion.start == Motion::Start::steady_rotation) start_in_rotation(plan, model);
   const bool round_off = stays_at_rest(scene, model);
+  petsc::VecHandle given;
+  petsc::check(VecDuplicate(model.V, given.out()));
+  petsc::check(VecCopy(model.V, given));
   model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
   if (round_off) model.velocity_correction = 0;
+  if (model.velocity_correction > 0) solve::damp_jump(*model.system, 0, scene.motion.step, model.U, given, model.V);
 }
 
 }  // namespace floe::assembly

@@ -226,8 +226,30 @@ std::string System::FailedConstraint::text() const {
 }
 
 void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const {
-  using petsc::check;
   gather(U, local_.q), gather(V, local_.v), gather(A, local_.a);
+  assemble(
+      t, [&](const Term&) { return weights; }, J);
+}
+
+void System::damped_mass(double t, Vec U, double h, Mat J) const {
+  gather(U, local_.q);
+  local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
+  assemble(
+      t,
+      [h](const Term& term) {
+        return term.damps_strains() ? Weights{0, h, 1} : Weights{0, 0, 1};
+      },
+      J);
+}
+
+bool System::damps_strains() const {
+  int any = std::any_of(terms_.begin(), terms_.end(), [](const auto& term) { return term->damps_strains(); });
+  if (!whole_) petsc::check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm()));
+  return any != 0;
+}
+
+void System::assemble(double t, const std::function<Weights(const Term&)>& weights, Mat J) const {
+  using petsc::check;
   double* dense = nullptr;
   const PetscInt n = coordinates_.owned_size();
   if (dense_) {
@@ -243,7 +265,7 @@ void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) cons
       const PetscInt size = static_cast<PetscInt>(indices.size());
       TermWork& w = pick(*term);
       w.J.setZero(size, size);
-      term->tangent({t, w.q, w.v, w.a, ConstraintLevel::position}, weights, w.J);
+      term->tangent({t, w.q, w.v, w.a, ConstraintLevel::position}, weights(*term), w.J);
       rows_.resize(size);
       for (PetscInt i = 0; i < size; ++i) rows_[i] = global[indices[i]];
       if (dense) {

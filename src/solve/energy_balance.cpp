@@ -72,8 +72,8 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
   ++count_, t_ = t;
 }
 
-void EnergyBalance::pass_event(double gained, double lost) {
-  work_ += gained, turnover_ += std::abs(gained), lost_in_impulses_ += lost;
+void EnergyBalance::pass_event(double gained, double lost, double damped) {
+  work_ += gained - damped, dissipated_ += damped, turnover_ += std::abs(gained), lost_in_impulses_ += lost;
   known_ = 0;
   lowest_ = level_;
 }

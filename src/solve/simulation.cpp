@@ -109,6 +109,12 @@ struct PassedKinks {
   bool velocities = false;  ///< whether they jump
 };
 
+double next_step(TS ts, const MotionContext& context) {
+  double h = context.nominal;
+  if (context.adaptive) check(TSGetTimeStep(ts, &h));
+  return h;
+}
+
 /// Takes the motion over the kinks that are due.
 PassedKinks pass_kinks(TS ts, const Integration& how, MotionContext& context) {
   PassedKinks passed;
@@ -118,10 +124,11 @@ PassedKinks pass_kinks(TS ts, const Integration& how, MotionContext& context) {
   check(TSGetTime(ts, &t));
   check(TSGetStepNumber(ts, &step));
   if (t >= context.end * (1 - 1e-12)) return passed;
+  const double h = next_step(ts, context);
   for (auto kink = next_kink(context, t); kink != context.kinks.end() && kink->before <= t + 1e-12 * context.end;
        ++kink) {
     check(TS2GetSolution(ts, &U, &V));
-    const EventReport report = pass(context.system, *kink, U, V);
+    const EventReport report = pass(context.system, *kink, h, U, V);
     passed.any = true, passed.velocities = passed.velocities || !kink->what.empty();
     check(TSSetTime(ts, kink->after));
     context.observed = step > 0;
@@ -142,7 +149,7 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
     const Event& event = context.events[i];
     const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
     if (!due || context.happened[i] != 0) continue;
-    const EventReport report = apply_event(context.system, event, t, U, V);
+    const EventReport report = apply_event(context.system, event, t, next_step(ts, context), U, V);
     context.happened[i] = 1;
     applied = true, stopped = stopped || event.stops;
     if (how.on_event) how.on_event(report);

@@ -77,9 +77,7 @@ petsc::VecHandle equilibrate(const System& system, Mat J) {
 constexpr double least_exact = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
 /// x with [M C'; C 0] x = b.
-petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec A, Vec b) {
-  const petsc::MatHandle J = system.create_tangent();
-  system.tangent(t, U, V, A, {0, 0, 1}, J);
+petsc::VecHandle solve_saddle(const System& system, Mat J, Vec b) {
   const petsc::VecHandle scale = equilibrate(system, J);
   const petsc::VecHandle right = system.create_vector(), product = system.create_vector();
   petsc::VecHandle x = system.create_vector();
@@ -142,7 +140,9 @@ void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
   const petsc::VecHandle F = system.create_vector();
   system.residual(t, U, V, A, ConstraintLevel::acceleration, F);
   check(VecScale(F, -1));
-  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  const petsc::MatHandle J = system.create_tangent();
+  system.tangent(t, U, V, A, {0, 0, 1}, J);
+  const petsc::VecHandle x = solve_saddle(system, J, F);
   split(system, x, U, A);
 }
 
@@ -157,13 +157,37 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
   double wrong = 0, size = 0, change = 0;
   check(VecNorm(F, NORM_INFINITY, &wrong));
   if (wrong == 0) return 0;
-  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  const petsc::MatHandle J = system.create_tangent();
+  system.tangent(t, U, V, A, {0, 0, 1}, J);
+  const petsc::VecHandle x = solve_saddle(system, J, F);
   split(system, x, impulses, A);
   check(VecNorm(V, NORM_2, &size));
   check(VecNorm(A, NORM_2, &change));
   check(VecAXPY(V, 1, A));
   if (size > 0) return change / size;
   return wrong > 1e-12 ? 1 : 0;  // bodies at rest, and drives whose rates are round-off: nothing to tell of
+}
+
+double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V) {
+  if (!(h > 0) || !system.damps_strains()) return 0;
+  const double kinetic = system.energy(t, U, V).kinetic;
+  const AtBase at_base(system, U, V, t);
+  const petsc::VecHandle w = system.create_vector(), b = system.create_vector(), undamped = system.create_vector();
+  const petsc::MatHandle mass = system.create_tangent();
+  system.damped_mass(t, U, 0, mass);
+  check(VecWAXPY(w, -1, before, V));
+  keep_rows(system, w, false);
+  for (int i = 0; i < 2; ++i) {
+    const petsc::MatHandle J = system.create_tangent();  // the solver scales and overwrites it
+    system.damped_mass(t, U, h, J);
+    check(MatMult(J, w, b));
+    check(MatMult(mass, w, undamped));
+    check(VecAXPY(b, -1, undamped));
+    keep_rows(system, b, false);
+    split(system, solve_saddle(system, J, b), nullptr, w);
+  }
+  check(VecAXPY(V, -1, w));
+  return kinetic - system.energy(t, U, V).kinetic;
 }
 
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,6 +56,10 @@ class System {
   FailedConstraint failed_constraint(double t, Vec U) const;
   /// w.q dF/dU + w.v dF/dV + w.a dF/dA, assembled. Collective.
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
+  /// M + h C at U and at rest, C the damping of strains, with the rows and columns of constraints. Collective.
+  void damped_mass(double t, Vec U, double h, Mat J) const;
+  /// Whether any term damps strains: the same answer on all ranks. Collective.
+  bool damps_strains() const;
   /// Collective.
   Energy energy(double t, Vec U, Vec V) const;
 
@@ -100,6 +105,8 @@ class System {
   void set_up_scatter();
   void set_up_corotated();
   void begin_terms(Vec V, double t) const;
+  /// Tangents at local_'s motion with the weights of each term, assembled. Collective.
+  void assemble(double t, const std::function<Weights(const Term&)>& weights, Mat J) const;
   enum class Which { all, constraining };
   /// Rows of local_'s motion into sum_. Collective.
   void add_rows(double t, ConstraintLevel level, Which which) const;
