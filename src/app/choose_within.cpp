@@ -59,9 +59,26 @@ class Search {
     constexpr int most_rounds = 6;
     double first = 0, before = 0, too_low = 1;
     int responses = 0;
+    std::size_t columns = 0;
     Series poorer;
-    for (int round = 0;; ++round) {
-      RunResult result = trials_.moved(candidates_->whole(), scene_.motion.step, !candidates_->columns().empty(), true);
+    std::string failed;
+    for (int round = 0, added = 0;; ++round) {
+      RunResult result;
+      try {
+        result = trials_.moved(candidates_->whole(), scene_.motion.step, !candidates_->columns().empty(), true);
+      } catch (const RunError& fault) {  // on all ranks
+        if (Interruption::happened(comm_)) throw;
+        const std::size_t count = candidates_->columns().size();
+        if (round == 0)
+          throw RunError(
+              fmt::format("{}: accuracy: the richest model, {} basis vectors in steps of {:.4g} s, fails: {}",
+                          scene_.file, count, scene_.motion.step, fault.what()));
+        failed = fmt::format("; with {} more the simulation fails ({})", added, shortened(fault.what()));
+        candidates_->keep(columns);
+        responses -= added;
+        trials_.forget();
+        break;
+      }
       states_ = std::move(result.states);
       const double estimate = estimate_of(result);
       if (round == 0) first = estimate;
@@ -69,7 +86,8 @@ class Search {
       space_ = too_low * estimate;
       before = estimate, poorer = std::move(result.series);
       if (space_ <= accuracy_ / 3 || round == most_rounds || candidates_->columns().empty()) break;
-      const int added = candidates_->add_responses(result.estimate);
+      columns = candidates_->columns().size();
+      added = candidates_->add_responses(result.estimate);
       if (added == 0) break;
       responses += added;
       trials_.forget();
@@ -81,6 +99,7 @@ class Search {
            responses > 0 ? fmt::format("{} correction vectors from residual responses: estimated error {} (before: {})",
                                        responses, math::percent(space_), math::percent(first))
                          : "estimated error " + math::percent(space_));
+    decisions_.back().reason += failed;
     if (too_low > 2)
       decisions_.back().reason +=
           fmt::format("; the first estimates were too low by a factor of {}, which is accounted for",
@@ -120,12 +139,21 @@ class Search {
     double finest;  ///< step of models that are compared with it
   };
 
+  /// Whether the model's simulation in these steps fails, which leaves the error of the step open.
+  bool fails(const Selection& model, double step) {
+    const Trial& trial = trials_.tried(model, step);
+    if (trial.series.t.empty() && !trial.failed.empty())
+      unresolved_ = fmt::format("in steps of {:.4g} s the simulation fails: {}", step, trial.failed);
+    return trial.series.t.empty() && !trial.failed.empty();
+  }
+
   /// From `last` in steps of that size, which a halving before changed by `before` (0: there was none). The last two
   /// motions are extrapolated (Richardson, order 2) where three of them show the order.
   Limit halve(const Selection& model, Series last, double step, double before) {
     constexpr int most_halvings = 5;
-    Limit limit{{}, 0, step};
+    Limit limit{last, before / 3, step};
     for (int halving = before > 0; halving < most_halvings; ++halving) {
+      if (fails(model, step / 2)) break;
       Series fine = trials_.series_of(model, step / 2);
       const double between = worst_error(last, fine);
       const bool ordered = before > 0 && between < 0.4 * before;
@@ -151,6 +179,11 @@ class Search {
       return;
     }
     const double h = scene_.motion.step;
+    if (fails(candidates_->whole(), h / 2)) {
+      trials_.compare_with(whole_motion_);
+      finest_ = h, richest_ = space_ + reference_.error;
+      return;
+    }
     const Series fine = trials_.series_of(candidates_->whole(), h / 2);
     const double between = worst_error(whole_motion_, fine);
     Limit limit{fine, between / 3, h};
@@ -341,6 +374,7 @@ class Search {
       if (body.reduced) decide("  " + body.name, "from a file", "assumed exact: its mesh is not available");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
+    if (!unresolved_.empty()) chosen.unbounded.push_back({"step", unresolved_});
     double of_choice = trials_.tried(selection_, step_).error;
     if (candidates_->has_responses(selection_)) of_choice = name_responses(chosen).value_or(of_choice);
     chosen.supported = richest_ + of_choice;
@@ -379,7 +413,8 @@ class Search {
   Trials trials_;                     // its reference: the richest model's motion in fine steps, or the given one
   std::vector<solve::State> states_;  // of the richest model
   ImpulseError impulses_;
-  Series whole_motion_;  // its motion, in steps that are halved
+  std::string unresolved_;  // why the error of the step is open
+  Series whole_motion_;     // its motion, in steps that are halved
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's
   double shortest_ = 0;             // step that it needs

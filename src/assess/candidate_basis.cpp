@@ -253,6 +253,15 @@ int CandidateBasis::add_responses(const Estimate& estimate) {
   return count;
 }
 
+void CandidateBasis::keep(std::size_t count) {
+  Parts& parts = *parts_;
+  parts.columns.resize(count);
+  for (Source& source : parts.sources)
+    while (!source.group.empty() && source.group.back() >= count)
+      source.group.pop_back(), source.columns.pop_back(), source.origins.pop_back();
+  parts.reduced.clear();
+}
+
 std::vector<EnergyContribution> CandidateBasis::energy_contribution(const Model& whole,
                                                                     const std::vector<solve::State>& states) const {
   const Parts& parts = *parts_;

@@ -296,6 +296,42 @@ probes: {v: {at: b.end, quantity: velocity}}
   CHECK_THAT(chosen.unbounded[0].second, Catch::Contains("formulation nlffr"));
 }
 
+// An elbow that hits its stop with 20 rad/s: cfr, full order and the richest models in short steps do not converge.
+TEST_CASE("total accuracy: where simulations of the selection fail, this is stated") {
+  const scene::Scene scene = scene::parse_scene(R"yaml(
+gravity: [0, -9.81]
+bodies:
+  one:
+    mesh: {line: {from: [0, 0], to: [0.7, 0], elements: 10}}
+    section: {EA: 3e4, EI: 1.2, rhoA: 0.4}
+    reduction: {modes: 4}
+    initial: {angle: -0.4, deformation: ["-0.5*(0.05*pi/0.7)^2*(x/2 + 0.7/(4*pi)*sin(2*pi*x/0.7))", "0.05*sin(pi*x/0.7)"]}
+  two:
+    mesh: {line: {from: [0, 0], to: [0.5, 0], elements: 8}}
+    section: {EA: 3e4, EI: 0.6, rhoA: 0.3}
+    reduction: {modes: 3}
+    initial: {position: ["0.7*cos(0.4)-0.0008*0+x0", "-0.7*sin(0.4)+y0"], angle: -1.2}
+parameters: {s: "0.5*(0.05*pi/0.7)^2*0.35", x0: "-s*cos(0.4)", y0: "s*sin(0.4)"}
+joints:
+  top: {type: revolute, between: [ground, one.start], friction: {level: 0.05, speed: 1}}
+  elbow: {type: revolute, between: [one.end, two.start], limits: {lower: -0.3, upper: 1.0, stiffness: 40, damping: 0.3, width: 0.03}}
+motion: {end: 0.9, step: 5e-4}
+probes:
+  tip: {at: two.end, quantity: position}
+  bow: {at: one.middle, quantity: deflection}
+  ang: {joint: elbow, quantity: angle}
+  rate: {joint: elbow, quantity: rate}
+  R: {joint: top, quantity: force}
+  K: {body: two, quantity: kinetic_energy}
+)yaml",
+                                                "scene");
+  app::Chosen chosen;
+  REQUIRE_NOTHROW(chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD));
+  REQUIRE(chosen.unbounded.size() == 1);
+  CHECK(chosen.unbounded[0].first == "step");
+  CHECK_THAT(chosen.unbounded[0].second, Catch::Contains("the simulation fails"));
+}
+
 // In one frame von Karman's strains are more than 6 % off.
 TEST_CASE("total accuracy: a strip of shells that bends far is divided into floating frames") {
   const std::string force = "30*smooth(t, 0, 0.3)";

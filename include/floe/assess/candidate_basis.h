@@ -49,6 +49,8 @@ class CandidateBasis {
   /// The basis vectors W that an estimate of a model of this candidate basis found, in all bodies. @return how many
   /// there are
   int add_responses(const Estimate& estimate);
+  /// Without the columns after the first `count`: responses that were added.
+  void keep(std::size_t count);
   /// All columns that the motion of model(whole()) needs, the most important first: at each place the one that adds
   /// most to what the ones before it carry (orthogonal matching pursuit, in the norm of K). Columns within the span of
   /// those before are not among them.
