@@ -127,8 +127,9 @@ void Recorder::note(const dynamics::EventReport& event) {
   ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
   if (event.speed) j["speed"] = *event.speed;
   if (event.work) j["kinetic_energy_gained"] = *event.work;
-  balance_.pass_event(event.work.value_or(0), event.lost, event.damped);
-  if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost, j["impulses"] = event.impulses;
+  const double lost = event.lost + std::min(event.damped, 0.);  // negative: drives carry what is locked along
+  balance_.pass_event(event.work.value_or(0) + std::max(-lost, 0.), std::max(lost, 0.), std::max(event.damped, 0.));
+  if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost + event.damped, j["impulses"] = event.impulses;
   result_.summary["events"].push_back(j);
 }
 

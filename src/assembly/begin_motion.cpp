@@ -41,7 +41,8 @@ void begin_motion(const Plan& plan, Model& model) {
   petsc::check(VecCopy(model.V, given));
   model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
   if (round_off) model.velocity_correction = 0;
-  if (model.velocity_correction > 0) solve::damp_jump(*model.system, 0, scene.motion.step, model.U, given, model.V);
+  if (model.velocity_correction > 1e-10 && !scene.motion.tolerance)
+    solve::damp_jump(*model.system, 0, scene.motion.step, model.U, given, model.V);
 }
 
 }  // namespace floe::assembly

@@ -92,7 +92,7 @@ BodyPart part_of(const Plan& plan, std::size_t p, const BeamSide& side, const st
     refuse(probe,
            fmt::format("the forces there are statically indeterminate in this model: the constraints of joints "
                        "{} are redundant; expected joints that release the redundant constraints, or formulation "
-                       "cfr",
+                       "nlffr or cfr, where flexible bodies determine them",
                        fmt::join(names, ", ")));
   }
   if (open[0] > 0) return rest;

@@ -45,9 +45,9 @@ std::array<double, 2> stop_gap(const Model& model, std::size_t i, double t, Vec 
   return gap;
 }
 
-std::vector<double> stop_gaps(const Model& model, Vec U) {
+std::vector<double> stop_gaps(const Model& model, double t, Vec U) {
   std::vector<double> gaps;
-  for (std::size_t i = 0; i < model.stops.size(); ++i) gaps.push_back(stop_gap(model, i, 0, U, U)[0]);
+  for (std::size_t i = 0; i < model.stops.size(); ++i) gaps.push_back(stop_gap(model, i, t, U, U)[0]);
   return gaps;
 }
 

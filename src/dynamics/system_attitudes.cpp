@@ -38,7 +38,7 @@ void System::rebase(Vec U, Vec V, double t) const {
 
 void System::commit_step(Vec U, Vec V, double t) const {
   gather(U, local_.q);
-  begin_terms(V, t);
+  begin_terms(has_attitudes_ ? V : nullptr, t);  // without attitudes no step begins again (rebase)
 }
 
 /// Every term begins a step at local_.q and the velocities V.

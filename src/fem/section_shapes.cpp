@@ -13,7 +13,9 @@ constexpr double pi = 3.14159265358979323846;
 void expect_positive(const char* shape, std::initializer_list<double> sizes) {
   for (const double size : sizes)
     if (!(size > 0) || !std::isfinite(size))
-      throw InputError(std::string(shape) + ": sizes must be positive, not " + std::to_string(size));
+      throw InputError(std::string(shape) +
+                       ": sizes must be positive, of hollow shapes also what the walls leave, not " +
+                       std::to_string(size));
 }
 
 double rectangle_torsion(double a, double b) {

@@ -212,7 +212,8 @@ void prepare_joints(Plan& plan, const std::function<Anchor(const Place&)>& place
     } else {
       plan.joint_constrained.back() = hold_by_joint(joint, plan.joint_axes.back(), body, at, body.constrained);
     }
-    if (at.line && !plan.joint_constrained.back() && (joint.first.ground() || joint.second.ground()))
+    const bool holds = joint.kind != Joint::Kind::spring && joint.kind != Joint::Kind::bushing;
+    if (at.line && holds && !plan.joint_constrained.back() && (joint.first.ground() || joint.second.ground()))
       body.notices.push_back(
           fmt::format("joint {}: its edge is oblique to the other joints of body {}, whose modes are computed with the "
                       "position of the edge fixed but its direction free; attachment modes at the joint (attachment: "

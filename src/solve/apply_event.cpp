@@ -29,7 +29,7 @@ EventReport apply_event(const System& system, const Event& event, double t, doub
   }
   if (!event.closes) return report;
   report.lost = before - system.energy(t, U, V).kinetic;
-  report.damped = damp_jump(system, t, h, U, rates, V);
+  report.damped = damp_jump(system, t, h, U, rates, V, impulses);
   Eigen::VectorXd local;
   system.gather(impulses, local);
   for (int i = 0; i < event.rows; ++i) report.impulses.push_back(local[event.first_row + i]);
@@ -46,8 +46,8 @@ EventReport pass(const System& system, const Kink& kink, double h, Vec U, Vec V)
     throw RunError(kink.what.empty() ? std::string(error.what()) : kink.name + " (" + kink.what + "): " + error.what());
   }
   if (kink.what.empty()) return report;
+  damp_jump(system, kink.after, h, U, rates, V);
   report.work = system.energy(kink.after, U, V).kinetic - before;
-  report.damped = damp_jump(system, kink.after, h, U, rates, V);
   return report;
 }
 

@@ -73,6 +73,7 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
 }
 
 void EnergyBalance::pass_event(double gained, double lost, double damped) {
+  if (count_ == 0) return;  // the energy of the start is that after it
   work_ += gained - damped, dissipated_ += damped, turnover_ += std::abs(gained), lost_in_impulses_ += lost;
   known_ = 0;
   lowest_ = level_;

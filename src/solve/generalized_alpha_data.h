@@ -64,7 +64,9 @@ struct GeneralizedAlpha {
 
   // How far q has been from where the run began, mass norm: what a local error is compared with.
   Vec origin = nullptr;
-  PetscReal reach = 0, reach_tried = 0, start_reach = 0, start_h = 0;  // start_: of attempts at a first step from rest
+  PetscReal reach = 0, reach_tried = 0;
+  PetscReal start_reach = 0, start_tried = 0, start_h = 0;  // of attempts at a first step from rest
+  PetscInt start_attempts = 0, start_falls = 0;
 
   // Where the Jacobian that SNES has was formed: a motion that is taken up again forms it once more.
   Vec tangent_U = nullptr, tangent_V = nullptr, tangent_A = nullptr;

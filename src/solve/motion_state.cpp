@@ -39,7 +39,8 @@ void each_number(TS ts, Visit&& visit) {
   visit(data->h), visit(data->h_a0), visit(data->t_event), visit(data->h_scale), visit(data->started);
   visit(data->equal_steps), visit(data->unresolved), visit(data->after_event);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
-  visit(data->reach), visit(data->reach_tried), visit(data->start_reach), visit(data->start_h);
+  visit(data->reach), visit(data->reach_tried), visit(data->start_reach), visit(data->start_tried),
+      visit(data->start_h);
   visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);
 }
 

@@ -109,11 +109,8 @@ struct PassedKinks {
   bool velocities = false;  ///< whether they jump
 };
 
-double next_step(TS ts, const MotionContext& context) {
-  double h = context.nominal;
-  if (context.adaptive) check(TSGetTimeStep(ts, &h));
-  return h;
-}
+/// For damp_jump; 0: not known, since the error of adaptive steps decides.
+double next_step(const MotionContext& context) { return context.adaptive ? 0 : context.nominal; }
 
 /// Takes the motion over the kinks that are due.
 PassedKinks pass_kinks(TS ts, const Integration& how, MotionContext& context) {
@@ -124,7 +121,7 @@ PassedKinks pass_kinks(TS ts, const Integration& how, MotionContext& context) {
   check(TSGetTime(ts, &t));
   check(TSGetStepNumber(ts, &step));
   if (t >= context.end * (1 - 1e-12)) return passed;
-  const double h = next_step(ts, context);
+  const double h = next_step(context);
   for (auto kink = next_kink(context, t); kink != context.kinks.end() && kink->before <= t + 1e-12 * context.end;
        ++kink) {
     check(TS2GetSolution(ts, &U, &V));
@@ -149,7 +146,7 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
     const Event& event = context.events[i];
     const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
     if (!due || context.happened[i] != 0) continue;
-    const EventReport report = apply_event(context.system, event, t, next_step(ts, context), U, V);
+    const EventReport report = apply_event(context.system, event, t, next_step(context), U, V);
     context.happened[i] = 1;
     applied = true, stopped = stopped || event.stops;
     if (how.on_event) how.on_event(report);

@@ -168,11 +168,12 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
   return wrong > 1e-12 ? 1 : 0;  // bodies at rest, and drives whose rates are round-off: nothing to tell of
 }
 
-double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V) {
+double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V, Vec impulses) {
   if (!(h > 0) || !system.damps_strains()) return 0;
   const double kinetic = system.energy(t, U, V).kinetic;
   const AtBase at_base(system, U, V, t);
-  const petsc::VecHandle w = system.create_vector(), b = system.create_vector(), undamped = system.create_vector();
+  const petsc::VecHandle w = system.create_vector(), b = system.create_vector(), undamped = system.create_vector(),
+                         held = system.create_vector();
   const petsc::MatHandle mass = system.create_tangent();
   system.damped_mass(t, U, 0, mass);
   check(VecWAXPY(w, -1, before, V));
@@ -184,9 +185,13 @@ double damp_jump(const System& system, double t, double h, Vec U, Vec before, Ve
     check(MatMult(mass, w, undamped));
     check(VecAXPY(b, -1, undamped));
     keep_rows(system, b, false);
-    split(system, solve_saddle(system, J, b), nullptr, w);
+    split(system, solve_saddle(system, J, b), held, w);
   }
   check(VecAXPY(V, -1, w));
+  if (impulses) {
+    keep_rows(system, held, true);
+    check(VecAXPY(impulses, -1, held));
+  }
   return kinetic - system.energy(t, U, V).kinetic;
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("stops: contact time and rebound of a rod are those of the penalty osc
   CHECK(found.duration == Approx(duration(1)).epsilon(1e-3));
   CHECK(found.rebound == Approx(-1).epsilon(1e-3));
   CHECK(drift(at) < 1e-3);
-  const std::vector<double> gaps = assembly::stop_gaps(at.model, at.model.U);
+  const std::vector<double> gaps = assembly::stop_gaps(at.model, 0, at.model.U);
   REQUIRE(gaps.size() == 2);
   CHECK(!at.model.stops[0].upper);
   CHECK(gaps[0] == Approx(at["rod.angle"].back() + 1));

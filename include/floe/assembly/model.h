@@ -229,7 +229,7 @@ struct ProbeColumn {
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
-std::vector<double> stop_gaps(const Model& model, Vec U);
+std::vector<double> stop_gaps(const Model& model, double t, Vec U);
 /// One of them, and its rate. Collective.
 std::array<double, 2> stop_gap(const Model& model, std::size_t stop, double t, Vec U, Vec V);
 /// How many bodies have a frame that moves in space.

@@ -34,9 +34,11 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
 ///
 /// which is h^2 of what a step resolves, and nearly all of what it does not (rates of beta omega^2 h >> 1, which move a
 /// body by v/(beta omega^2), not by h v). Momentum is kept.
-/// @return  what this takes of the kinetic energy [J]
+/// @param h  0: nothing is done
+/// @param impulses  if given, those of the joints that made the jump; they become those of what is left of it
+/// @return  what this takes of the kinetic energy [J], negative where drives carry the bodies along
 /// Collective. Two factorisations, none where nothing damps strains.
-double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V);
+double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V, Vec impulses = nullptr);
 
 /// |C(q, t)|, or of its rate, maximum over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
