@@ -231,7 +231,7 @@ probes: {x: {at: b.centre, quantity: displacement}}
 }
 
 // A parallelogram at rest: its equations are singular where all coordinates are zero, with its bars in line.
-TEST_CASE("a mechanism that has not moved yet is taken up from a state, to the last bit") {
+TEST_CASE("a mechanism that has not moved yet continues from a stored state, to the last bit") {
   const scene::Scene scene = scene::parse_scene(R"yaml(
 bodies:
   c1: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {rhoA: 1}, initial: {angle: 1.2}}
