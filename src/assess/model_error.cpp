@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "error_part.h"
 #include "floe/assess/probe_errors.h"
@@ -71,7 +72,7 @@ class ModelError {
     if (!resolved(exact->event_error)) exact = in_shorter_steps(used, std::move(*exact));
     if (!exact) return;
     part_.by = name_ + ", " + words(used);
-    const Better plain = *exact;
+    const Simulated plain = exact->probes;
     if (used.mesh == 1 && formulation_ == Formulation::cfr) extrapolate(used, *exact);
     part_.by += step_words(used.step);
     if (formulation_ == Formulation::cfr && reduction_.errors.empty()) {
@@ -81,13 +82,7 @@ class ModelError {
     const Simulated one = own_motion(used, exact->reached);
     const std::vector<std::string> notes = part_.notes;
     set_errors(own_, exact->probes, one, 1, others(), part_);
-    if (const std::optional<ErrorPart> change = changed_by_steps(used, plain.probes, one, exact->reached)) {
-      std::vector<std::vector<double>> less = others();
-      for (std::size_t i = 0; i < std::min(less.size(), change->errors.size()); ++i)
-        for (std::size_t c = 0; c < less[i].size(); ++c) less[i][c] -= change->errors[i][c] / 3;
-      set_errors(own_, exact->probes, one, 1, less, part_ = emptied(notes));
-      leave_out_unresolved(*change);
-    }
+    if (useful(used, exact->reached)) correct_by_steps(used, *exact, {plain, one}, notes);
     if (part_.t.empty()) part_.none = name_ + " has no results at the instants stored";
   }
 
@@ -193,54 +188,100 @@ class ModelError {
     }
   }
 
-  /// Where the part is large, and the time allows (of steps that were made longer to save time, with half the limit
-  /// more): what the difference of both models is more than in steps twice as long. In coarse steps the errors of both
-  /// models' steps may be unlike, as those of motions are that only one of them has; where steps resolve what both
-  /// have, they are alike.
-  /// @return  none: not simulated
-  std::optional<ErrorPart> changed_by_steps(Thinning used, const Simulated& plain, const Simulated& one, double end) {
-    const Thinning twice{used.mesh, 2 * used.step};
+  /// The better model and the motion, in the same steps.
+  struct Both {
+    Simulated better, own;
+  };
+
+  /// Whether steps of another length are worth their time: the part is large.
+  bool useful(Thinning used, double end) {
     const auto large_ones = std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
-    const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_);
-    const double limit = used.step > 1 ? std::max(time_.left(), allowed_ / 2) : time_.left();
-    const bool useful = time_.of_first(wanted && large_ones > 0) > 0,
-               fits = time_.of_first(needs(twice)) * end / motion_.how.end <= time_.of_first(limit);
-    if (!useful || !fits) return std::nullopt;
+    const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_) && large_ones > 0;
+    return time_.of_first(wanted) > 0 && fits({used.mesh, 2 * used.step}, end, used.step > 1);
+  }
+
+  /// Whether the time suffices for both models up to `end`; of steps that were made longer to save it, with half the
+  /// limit more.
+  bool fits(Thinning other, double end, bool with_more) {
+    const double left = with_more ? std::max(time_.left(), allowed_ / 2) : time_.left();
+    return time_.of_first(needs(other)) * end / motion_.how.end <= time_.of_first(left);
+  }
+
+  /// Subtracts from the difference of both models, `exact` less `these.own`, what is of the steps, by steps twice as
+  /// long, and where these fail or change it much, by shorter ones: in steps h it is D(h) = D(0) + c h^2, of which
+  /// D(0) = D(h') + (D(h') - D(2 h')) / 3 remains, h' the shortest. In coarse steps the errors of both models' steps
+  /// may be unlike, as those of motions are that only one of them has; where steps resolve what both have, they are
+  /// alike. Probes that no steps resolve are left out.
+  void correct_by_steps(Thinning used, const Better& exact, const Both& these, const std::vector<std::string>& notes) {
+    const std::string by = part_.by;
+    Both fine = these;
+    std::optional<Both> coarse = both({used.mesh, 2 * used.step}, exact.reached);
+    ErrorPart change;  // D(h') - D(2 h')
+    for (Thinning shorter{used.mesh, used.step / 2};; shorter.step /= 2) {
+      if (coarse) change = difference(fine, *coarse);
+      if (!change.t.empty()) {
+        const ErrorPart moved = difference(fine, these);
+        std::vector<std::vector<double>> less = others();
+        for (std::size_t i = 0; i < std::min(less.size(), change.errors.size()); ++i)
+          for (std::size_t c = 0; c < less[i].size(); ++c) less[i][c] -= moved.errors[i][c] + change.errors[i][c] / 3;
+        set_errors(own_, exact.probes, these.own, 1, less, part_ = emptied(notes));
+        const double length = 2 * shorter.step / used.step;  // h' / h
+        part_.by = by + (length == 1 ? ", and both in steps twice as long"
+                                     : fmt::format(", and both in steps 1/{:g} as long", 1 / length));
+        if (time_.of_first(unresolved(change)) == 0) break;
+      } else if (time_.of_first(time_.spent()) > 2 * allowed_) {
+        return;  // the simulation was ended: the part stands
+      }
+      if (shorter.step < used.step / 4 || !fits(shorter, exact.reached, used.step > 1)) break;
+      std::optional<Both> finer = both(shorter, exact.reached);
+      if (!finer) break;
+      coarse = std::exchange(fine, std::move(*finer));
+    }
+    if (change.t.empty()) return leave_out_unchecked();
+    leave_out([&](std::size_t p) { return is_unresolved(change, p); },
+              "steps of another length change the difference to formulation cfr by more than half of this part");
+  }
+
+  /// Whether steps do not resolve the part of a probe: those of another length change it by more than half of it.
+  bool is_unresolved(const ErrorPart& change, std::size_t probe) const {
+    return part_.probes[probe] > large && change.probes[probe] > part_.probes[probe] / 2;
+  }
+  bool unresolved(const ErrorPart& change) const {
+    for (std::size_t p = 0; p < std::min(part_.probes.size(), change.probes.size()); ++p)
+      if (is_unresolved(change, p)) return true;
+    return false;
+  }
+
+  /// Both models once more, in steps of another length.  @return  none: one of them failed, or resolves less
+  std::optional<Both> both(Thinning other, double end) {
     const std::vector<std::string> notes = part_.notes;
     std::optional<Better> second;
-    Simulated own_second;
+    Simulated own;
     const std::string why = petsc::failed_together(motion_.comm, [&] {
-      second = better(twice, end, false);
-      own_second = own_motion(twice, end);
+      second = better(other, end, false);
+      own = own_motion(other, end);
     });
     part_.notes = notes;
     const bool reached =
         why.empty() && resolved(second->event_error) && time_.of_first(second->reached - 0.98 * end) >= 0;
-    const bool late = time_.of_first(time_.spent()) > 2 * allowed_;  // the simulation was ended
-    if (!reached && !late && used.step > 1) leave_out_unchecked();
-    if (!reached) return std::nullopt;  // the part stands
+    if (!reached) return std::nullopt;
+    return Both{std::move(second->probes), std::move(own)};
+  }
+
+  /// Of both models in steps of one length, less that in those of another.
+  ErrorPart difference(const Both& these, const Both& others) {
     ErrorPart of_own, change;
-    set_errors(own_, one, own_second, 1, {}, of_own);
-    set_errors(own_, plain, second->probes, 1, of_own.errors, change);
-    if (change.t.empty()) return std::nullopt;
-    part_.by += ", and both in steps twice as long";
+    set_errors(own_, these.own, others.own, 1, {}, of_own);
+    set_errors(own_, these.better, others.better, 1, of_own.errors, change);
     return change;
   }
 
-  /// Large errors of probes in steps that were made longer to save time, where steps twice as long cannot be computed:
-  /// nothing shows that the steps resolve them.
+  /// Large errors of probes, where neither steps twice nor half as long can be computed: nothing shows that the steps
+  /// resolve them.
   void leave_out_unchecked() {
-    leave_out(
-        [&](std::size_t p) { return part_.probes[p] > large; },
-        "the steps are longer than those of the motion, and whether they resolve the difference to formulation cfr "
-        "is not known, because steps twice as long fail");
-  }
-
-  /// Probes of which steps twice as long change the difference of both models by more than half of the part: steps do
-  /// not resolve it.
-  void leave_out_unresolved(const ErrorPart& change) {
-    leave_out([&](std::size_t p) { return part_.probes[p] > large && change.probes[p] > part_.probes[p] / 2; },
-              "steps twice as long change the difference to formulation cfr by more than half of this part");
+    leave_out([&](std::size_t p) { return part_.probes[p] > large; },
+              "whether the steps resolve the difference to formulation cfr is not known, because steps twice as long "
+              "fail, and shorter ones do, too, or take too much time");
   }
 
   void leave_out(const std::function<bool(std::size_t)>& which, const std::string& why) {

@@ -126,7 +126,7 @@ TEST_CASE("error budget: parts and total of a motion whose joints change", "[lon
     for (const std::string& none : {full.none, mesh.none, model.none, step.none}) CHECK(none == "");
     CHECK_THAT(full.by, Catch::StartsWith("formulation nlffr, same mesh"));
     CHECK_FALSE(model.with_reduction);
-    CHECK((model.by.find("steps 1/") != std::string::npos) == (one.text == bent_in_space));
+    CHECK((model.by.find(", steps 1/") != std::string::npos) == (one.text == bent_in_space));
     for (std::size_t p = 0; p < total.size(); ++p) {
       const std::string& probe = moved.history.model.probes[p].name;
       if (probe == "held" && one.when != "at: 0.6") continue;  // it jumps at another time in the exact motion
