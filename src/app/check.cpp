@@ -9,6 +9,7 @@
 #include <set>
 
 #include "commands.h"
+#include "floe/assembly/body_stage.h"
 #include "floe/assess/body_properties.h"
 #include "floe/assess/check_modes.h"
 #include "floe/output/table.h"
@@ -19,19 +20,40 @@
 namespace floe::app {
 namespace {
 
-std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
+/// @param bound  "all ", or "up to " where `fields` is the most that there may be
+std::string derivative_words(const scene::DerivativesSpec& spec, int fields, const std::string& bound) {
   using Choice = scene::DerivativesSpec::Choice;
   const std::string kind = spec.full ? "full" : "static";
   switch (spec.choice) {
     case Choice::none:
       return "no derivatives";
     case Choice::all:
-      return fmt::format("all {} {} derivatives of each pair", fields * (fields + 1) / 2, kind);
+      return fmt::format("{}{} {} derivatives of each pair", bound, fields * (fields + 1) / 2, kind);
     case Choice::count:
       return fmt::format("{} {} derivatives by modal interaction", spec.count, kind);
     default:
       return fmt::format("{} {} derivatives as listed", spec.pairs.size(), kind);
   }
+}
+
+/// Basis vectors of a body of strains of second order whose elastic force has so many products of coordinates that its
+/// reduction takes more than about ten seconds. Empty: fewer, or the scene omits some.
+std::string products_note(const scene::Body& body, int attached, std::int64_t elements) {
+  using Choice = scene::DerivativesSpec::Choice;
+  constexpr std::int64_t many = 3000000;  // of all elements
+  const scene::ReductionSpec& reduction = body.reduction;
+  const std::int64_t fields = reduction.modes.count + attached, all = fields * (fields + 1) / 2;
+  const std::int64_t vectors = fields + (reduction.derivatives.choice == Choice::all     ? all
+                                         : reduction.derivatives.choice == Choice::count ? reduction.derivatives.count
+                                         : reduction.derivatives.choice == Choice::none
+                                             ? 0
+                                             : static_cast<std::int64_t>(reduction.derivatives.pairs.size()));
+  const std::int64_t products = vectors * (vectors + 1) / 2;
+  if (products * elements <= many || reduction.products || !reduction.columns.empty()) return {};
+  return fmt::format(
+      "body {}: up to {} basis vectors, and {} products of them in its elastic force, which take most of the reduction "
+      "and of a step; products: 3 % (reduction) omits those that hardly move the body, fewer modes or derivatives help",
+      assembly::whole_name(body), vectors, products);
 }
 
 std::string reduced_words(const output::ReducedBodyFile& file, const std::string& path) {
@@ -43,14 +65,16 @@ std::string reduced_words(const output::ReducedBodyFile& file, const std::string
   return fmt::format("{}, from {}", fmt::join(words, ", "), path);
 }
 
-std::string basis_words(const scene::Body& body) {
+/// @param attached  number of attachment modes
+std::string basis_words(const scene::Body& body, int attached) {
   if (body.rigid) return "rigid";
   if (body.reduced) return reduced_words(*body.reduced->file, body.reduced->path);
   const scene::ModesSpec& modes = body.reduction.modes;
   return fmt::format(
-      "{} modes ({}), {}", modes.count,
+      "{} modes ({}), {}{}", modes.count,
       modes.of == scene::ModesSpec::Of::joints ? "with its joints fixed" : "under its frame's conditions",
-      derivative_words(body.reduction.derivatives, modes.count));
+      attached > 0 ? fmt::format("up to {} attachment modes, ", attached) : "",
+      derivative_words(body.reduction.derivatives, modes.count + attached, attached > 0 ? "up to " : "all "));
 }
 
 /// From so many elements on, `check` does not build the full-order system: it would take seconds and gigabytes.
@@ -162,7 +186,7 @@ output::Table frequency_table(const std::vector<assess::BodyProperties>& bodies)
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted, int frequencies) {
   const scene::Scene split = plan::split_frames(scene, comm);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
-  assess::check_modes(scene, comm);
+  const std::vector<int> attached = assess::check_modes(scene, comm);
   const std::vector<assess::BodyProperties> properties = assess::body_properties(scene, comm, frequencies);
   std::int64_t elements = 0;
   for (std::size_t b = 0; b < sizes.size(); ++b)
@@ -176,7 +200,7 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
                    {"frame", ""}, {"strains", ""},  {"reduction (vm+md)", ""}};
   for (std::size_t b = 0; b < sizes.size(); ++b)
     table.rows.push_back({split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, sizes[b].strains,
-                          basis_words(split.bodies[b])});
+                          basis_words(split.bodies[b], attached[b])});
   fmt::print("{}{}\n\n{}\n", scene.file, scene.title.empty() ? "" : ": " + scene.title, output::to_text(table));
   print_properties(properties, scene.dimension);
   if (frequencies > 0) fmt::print("{}\n", output::to_text(frequency_table(properties)));
@@ -201,6 +225,10 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
   else if (moves)
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
   std::vector<std::string> notes = notices_of(sizes);
+  for (std::size_t b = 0; b < sizes.size(); ++b)
+    if (const std::string note = products_note(split.bodies[b], attached[b], sizes[b].elements);
+        sizes[b].strains.rfind("second_order", 0) == 0 && !note.empty())
+      notes.push_back(note);
   if (model)
     for (const std::string& warning : model->warnings)
       if (std::find(notes.begin(), notes.end(), warning) == notes.end()) notes.push_back(warning);

@@ -5,19 +5,22 @@
 #include <algorithm>
 
 #include "floe/assembly/body_stage.h"
+#include "floe/plan/attachments.h"
 
 namespace floe::assess {
 using namespace assembly;
 
-void check_modes(const Scene& whole, MPI_Comm comm) {
+std::vector<int> check_modes(const Scene& whole, MPI_Comm comm) {
   constexpr PetscInt plenty = 12;
   const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<std::string> faults;
+  std::vector<int> attached(plan.bodies.size(), 0);
   for (int b = 0; b < static_cast<int>(plan.bodies.size()); ++b) {
     const PlannedBody& body = plan.bodies[b];
     const ModesSpec& modes = body.spec.reduction.modes;
-    if (body.spec.rigid || body.spec.reduced || !modes.given || modes.count * plenty <= body.structure.dofs()) continue;
+    if (is_meshed(body.spec)) attached[b] = static_cast<int>(attachments(plan, b).size());
+    if (!is_meshed(body.spec) || !modes.given || modes.count * plenty <= body.structure.dofs()) continue;
     const fem::Holding holding = holding_of_modes(plan, b);
     const reduction::Statics statics(body.structure, body.frame, holding);
     const PetscInt available = reduction::ModeSolver(body.structure, body.frame, holding, statics).available();
@@ -27,6 +30,7 @@ void check_modes(const Scene& whole, MPI_Comm comm) {
     if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
   }
   if (!faults.empty()) throw InputError(faults);
+  return attached;
 }
 
 }  // namespace floe::assess

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "floe/scene/sensors.h"
 #include "readers.h"
 
 namespace floe::scene {
@@ -63,8 +65,10 @@ Event read_event(Document& document, const std::string& name, const Value& value
 
 void check_events(Document& document, const Scene& scene) {
   if (document.fault_count() > 0) return;
-  std::vector<std::string> probes;
-  for (const Probe& probe : scene.probes) probes.push_back(probe.name);
+  std::vector<std::string> components;
+  for (const Probe& probe : scene.probes)
+    for (const std::string& component : components_of(probe.quantity, scene.dimension))
+      components.push_back(probe.name + "." + component);
   for (const Event& event : scene.events) {
     if (event.kind != Event::Kind::stop) check_joint(document, scene, event);
     Where where = event.where;
@@ -77,9 +81,11 @@ void check_events(Document& document, const Scene& scene) {
     }
     if (event.probe.empty()) continue;
     where.key += ".probe";
-    const std::string name = event.probe.substr(0, event.probe.find('.'));
-    if (std::find(probes.begin(), probes.end(), name) == probes.end())
-      document.fault(where, "is \"" + event.probe + "\"", "a probe and its component, as tip.y", name, probes);
+    if (std::find(components.begin(), components.end(), event.probe) == components.end())
+      document.fault(where, "is \"" + event.probe + "\"",
+                     components.size() > 12 ? "a component of a probe, as " + components.front()
+                                            : fmt::format("one of {}", fmt::join(components, ", ")),
+                     event.probe, components);
   }
 }
 

@@ -88,6 +88,14 @@ COMMANDS = [
     Case("version", ["--version"], shows=("floe 0",), lines=0),
     Case("schema", ["schema"], shows=("motion", "spectral_radius")),
     Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
+    Case("check of attachment modes", ["check", "scene.yaml"], lines=0, shows=("up to 2 attachment modes, up to 10 static derivatives of each pair",),
+         scene=scene({"bodies.beam.reduction": {"modes": 2, "attachment": "all"}, "loads": {"tip": {"type": "force", "at": "beam.end", "force": [0, 1]}}})),
+    Case("check of many products", ["check", "scene.yaml"], lines=0, shows=("Note: body f: up to 77 basis vectors, and 3003 products",),
+         scene="bodies: {f: {mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: [40, 15]}}, strains: second_order, section: "
+               "{thickness: 0.005}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 11}}}\n"
+               "joints: {root: {type: fixed, between: [ground, f.left]}}\n"),
+    Case("check of an event of no component", ["check", "scene.yaml"], 2, ('is "tip.w"; expected one of tip.x, tip.y',), lines=1, check=nothing,
+         scene=scene({"events": {"off": {"stop": True, "probe": "tip.w", "crosses": 1}}})),
     Case("check of many elements", ["check", "scene.yaml"], shows=("300003", "is not built"),
          scene=scene({"bodies.beam.mesh.line.elements": 100000})),
     Case("modes of nearly all dofs", ["modes", "scene.yaml"], lines=0, shows=("Note: body f: mode", "(limit 1e-04)"),
