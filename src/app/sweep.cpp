@@ -29,6 +29,7 @@ struct Plan {
   scene::Formulation formulation;
   std::vector<std::vector<scene::Variation>> members;
   bool estimate = false;
+  std::string title = {};
 };
 
 /// Of columns, without their components.
@@ -273,6 +274,7 @@ Plan plan_of(const SweepRequest& request, int ranks) {
     throw InputError(file + ": motion: is missing; expected end time and time step, as `motion: {end: 3, step: 1e-3}`");
   if (first.probes.empty())
     throw InputError(file + ": probes: is missing; expected the quantities that the sweep records");
+  plan.title = first.title;
   return plan;
 }
 
@@ -295,7 +297,7 @@ std::vector<assembly::ProbeColumn> columns_of(const Plan& plan, Offline& offline
 
 ordered_json summary_of(const Plan& plan, const SweepRequest& request, MPI_Comm comm) {
   ordered_json j{{"status", "running"},
-                 {"scene", {{"file", plan.file}}},
+                 {"scene", {{"file", plan.file}, {"title", plan.title}}},
                  {"formulation", scene::name_of(plan.formulation)},
                  {"provenance", output::provenance(comm)}};
   j["ranks_per_member"] = request.ranks_per_member;

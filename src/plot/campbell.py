@@ -6,6 +6,7 @@ import os
 from style import MARKS, MORE_COLOURS, Fault, pyplot, read_json, save
 
 SIZE = 7.6, 4.6  # inches
+LINES = "-", "--", ":"  # of vibrations that have the same colour
 
 
 def load(folder):
@@ -32,11 +33,19 @@ def load(folder):
     return {track: sorted(points) for track, points in sorted(tracks.items())}, unstable, f"{scene.get('title') or scene.get('file', '')}: {summary.get('label', '')}"
 
 
+def with_gaps(line, speeds):
+    """The points of a track, and none at speeds where it has not been found: its line does not pass over them."""
+    known = dict(line)
+    within = [speed for speed in speeds if line[0][0] <= speed <= line[-1][0]]
+    return [(speed, known.get(speed, math.nan)) for speed in within]
+
+
 def draw(folder, path, dpi, orders=6):
     tracks, unstable, title = load(folder)
     figure, panel = pyplot().subplots(figsize=SIZE, layout="constrained")
     points = [point for track in tracks.values() for point in track]
-    end = max(speed for speed, _ in points)
+    speeds = sorted({speed for speed, _ in points})
+    end = speeds[-1]
     top = 1.08 * max(hertz for _, hertz in points) or 1
     for order in range(1, orders + 1):
         if end == 0:
@@ -46,12 +55,16 @@ def draw(folder, path, dpi, orders=6):
         at = (2 * math.pi * top / order, top) if beyond else (end, order * end / (2 * math.pi))
         if not beyond and order > 1 and end / (2 * math.pi) < 0.035 * top and order < orders:
             continue  # lines that lie close to one another: the first and the last have names
-        panel.annotate(f"{order}×", at, xytext=(0, 2) if beyond else (3, 0), textcoords="offset points", fontsize=8,
+        close = orders * end / (2 * math.pi) < 0.04 * top  # all of them have one name
+        if close and order < orders:
+            continue
+        panel.annotate(f"1× to {orders}×" if close else f"{order}×", at, xytext=(0, 2) if beyond else (3, 0), textcoords="offset points", fontsize=8,
                        color="0.35", ha="center" if beyond else "left", va="bottom" if beyond else "center",
                        annotation_clip=False)
     for mode, (track, line) in enumerate(tracks.items()):
-        panel.plot(*zip(*line), marker=MARKS[mode % len(MARKS)], markersize=3.4, linewidth=1.4,
-                   color=MORE_COLOURS[mode % len(MORE_COLOURS)], label=f"{track}", zorder=3)
+        panel.plot(*zip(*with_gaps(line, speeds)), marker=MARKS[mode % len(MARKS)], markersize=3.4, linewidth=1.4,
+                   color=MORE_COLOURS[mode % len(MORE_COLOURS)], label=f"{track}", zorder=3,
+                   linestyle=LINES[mode // len(MORE_COLOURS) % len(LINES)])
     if unstable:
         panel.plot(*zip(*unstable), "kx", markersize=8, label="unstable", zorder=4)
     panel.set_xlim(0, end if end > 0 else 1)

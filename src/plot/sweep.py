@@ -12,14 +12,26 @@ sys.dont_write_bytecode = True
 from style import COLOURS, MARKS, Fault, guarded, pyplot, save  # noqa: E402
 
 PANEL_HEIGHT, WIDTH, MOST_LINES = 2.1, 7.6, 12  # inches
+ROUND_OFF = 1e-9
 
 
 def load(folder):
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-        paths = [varied["path"] for varied in json.load(file)["varied"]]
+        summary = json.load(file)
     with open(os.path.join(folder, "sweep.csv"), newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    return paths, rows
+    scene = summary.get("scene", {})
+    return [varied["path"] for varied in summary["varied"]], rows, scene.get("title") or scene.get("file", "")
+
+
+def drawn(rows, columns):
+    """Without components that are round-off beside the others of their probe."""
+    greatest = {column: max((abs(float(row[column])) for row in rows if row[column]), default=0) for column in columns}
+    probe = {column: column.rsplit(".", 1)[0] for column in columns}
+    of_probe = {}
+    for column in columns:
+        of_probe[probe[column]] = max(of_probe.get(probe[column], 0), greatest[column])
+    return [column for column in columns if greatest[column] > ROUND_OFF * of_probe[probe[column]] or of_probe[probe[column]] == 0]
 
 
 def label(row, paths):
@@ -27,10 +39,11 @@ def label(row, paths):
 
 
 def draw(folder, path, dpi):
-    paths, rows = load(folder)
+    paths, rows, title = load(folder)
     columns = [name for name in rows[0] if name and name.startswith("greatest ")] if rows else []
     if not columns:
         raise Fault(f"{folder}: no members")
+    columns = drawn(rows, columns)
     figure, panels = pyplot().subplots(len(columns), 1, sharex=True, squeeze=False, layout="constrained",
                                      figsize=(WIDTH, 0.7 + PANEL_HEIGHT * len(columns)))
     lines = {}
@@ -50,6 +63,7 @@ def draw(folder, path, dpi):
     panels[-1, 0].set_xlabel(paths[0])
     if len(lines) > 1 or failed:
         panels[0, 0].legend(fontsize="small", frameon=False, ncols=2)
+    figure.suptitle(title, fontsize=11)
     save(figure, path, dpi)
 
 

@@ -12,6 +12,7 @@ from style import COLOURS, Fault, duration, guarded, per_cent, pyplot, read_json
 
 WIDTH, HEIGHT = 8.2, 4.9  # inches, of the diagram; the key of the front comes below
 LINE = 0.19
+LABEL = 80, 12  # points: width and height of a label
 NEAR = 11  # points: numbers of the front that are closer are written together
 
 # Groups of the legend: marker, its size, colour (Okabe and Ito), families of models.
@@ -101,11 +102,23 @@ def draw_front(axes, front):
 
 
 def draw_selected(axes, shown, front):
-    """Each with its label, and its number on the front."""
-    for variant in shown:
-        if variant.get("required"):
-            number = f"{front.index(variant) + 1}  " if variant in front else ""
-            write_below(axes, f"{number}accuracy: {per_cent(variant['required'])}", (variant["motion"], 100 * variant["error"]), "bold")
+    """Each with its label, and its number on the front; labels that would lie on one another are written as one."""
+    selected = sorted((variant for variant in shown if variant.get("required")), key=lambda one: one["motion"])
+    places = [axes.transData.transform((one["motion"], 100 * one["error"])) * 72 / axes.figure.dpi for one in selected]
+    groups = []
+    for one, place in zip(selected, places):
+        near = next((group for group in groups if all(abs(place - group["place"]) < LABEL)), None)
+        if near:
+            near["members"].append(one)
+        else:
+            groups.append({"place": place, "members": [one]})
+    for group in groups:
+        members = sorted(group["members"], key=lambda one: -one["required"])
+        numbers = sorted(front.index(one) + 1 for one in members if one in front)
+        words = ", ".join(per_cent(one["required"]) for one in members)
+        lowest = min(members, key=lambda one: (one["motion"], one["error"]))
+        write_below(axes, f"{', '.join(map(str, numbers))}{'  ' if numbers else ''}accuracy: {words}",
+                    (lowest["motion"], 100 * lowest["error"]), "bold")
 
 
 def write_below(axes, text, at, weight):
@@ -123,7 +136,7 @@ def draw(description, shown, path, dpi):
     axes.set_xscale("log")
     axes.set_yscale("log")
     times, errors = [r["motion"] for r in shown], [100 * r["error"] for r in shown]
-    axes.set_xlim(min(times) / 8, max(times) * 1.6)
+    axes.set_xlim(min(times) / 16, max(times) * 1.6)
     axes.set_ylim(max(min(errors) / 5, 1e-7), min(max(errors) * 2, 300))
     draw_models(axes, shown)
     draw_front(axes, description["front"])
