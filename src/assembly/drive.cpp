@@ -71,7 +71,12 @@ std::array<double, 2> room(const std::vector<DriveKink>& kinks, std::size_t i, d
 dynamics::TimeFunction as_written(const Joint& joint, const Motion& motion) {
   const math::Formula f = formula_of(joint);
   if (joint.speed) {
-    const math::Integral travelled([f](double t) { return f(t); }, motion.step > 0 ? 16 * motion.step : 1);
+    std::vector<double> breaks;
+    if (motion.step > 0 && motion.end > 0 && std::isfinite(motion.end))
+      for (const math::Break& at : math::breaks(f, 0, motion.end, std::min(motion.step, motion.end / 1000)).at)
+        breaks.push_back(at.before), breaks.push_back(at.after);
+    const math::Integral travelled([f](double t) { return f(t); }, motion.step > 0 ? 16 * motion.step : 1,
+                                   std::move(breaks));
     return {[travelled](double t) { return travelled(t); }, [f](double t) { return f(t); },
             [f](double t) { return f.derivative(t); }};
   }

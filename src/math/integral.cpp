@@ -1,5 +1,6 @@
 #include "floe/math/integral.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
@@ -34,17 +35,26 @@ double adaptive(const std::function<double(double)>& f, double from, double to, 
 struct Integral::Kept {
   std::function<double(double)> f;
   double panel;
+  std::vector<double> breaks;
   std::array<std::vector<double>, 2> until;  // int_0^(k panel), forwards and backwards in time
 
   double over(double from, double to) const {
     if (from == to) return 0;
     if (to < from) return -over(to, from);
-    return adaptive(f, from, to, 1e-14 * Estimate(f, from, to).size, 46);
+    double sum = 0, begin = from;
+    const auto add = [&](double end) {
+      sum += adaptive(f, begin, end, 1e-14 * Estimate(f, begin, end).size, 46);
+      begin = end;
+    };
+    for (auto at = std::upper_bound(breaks.begin(), breaks.end(), from); at != breaks.end() && *at < to; ++at) add(*at);
+    add(to);
+    return sum;
   }
 };
 
-Integral::Integral(std::function<double(double)> f, double panel)
-    : kept_(std::make_shared<Kept>(Kept{std::move(f), panel, {std::vector<double>{0}, std::vector<double>{0}}})) {}
+Integral::Integral(std::function<double(double)> f, double panel, std::vector<double> breaks)
+    : kept_(std::make_shared<Kept>(
+          Kept{std::move(f), panel, std::move(breaks), {std::vector<double>{0}, std::vector<double>{0}}})) {}
 
 double Integral::operator()(double t) const {
   const double side = t < 0 ? -1 : 1;

@@ -77,6 +77,17 @@ TEST_CASE("a drive by speed rotates by its integral") {
   }
 }
 
+// A pulse of a twentieth of a step, and the first instants behind a jump.
+TEST_CASE("a drive by speed rotates by jumps that no point of a quadrature sees") {
+  const scene::Scene pulse = driven("speed: 't > 0.1 ? (t < 0.1005 ? 10 : 1) : 1'"),
+                     start = driven("speed: 't < 0.1 ? 0 : 5'");
+  const dynamics::TimeFunction drive = assembly::drive_of(pulse.joints[0], pulse.motion),
+                               begin = assembly::drive_of(start.joints[0], start.motion);
+  CHECK(drive.value(0.05) == Approx(0.05).epsilon(1e-12));
+  CHECK(drive.value(1) == Approx(1 + 9 * 5e-4).epsilon(1e-12));
+  for (const double after : {1e-5, 1e-8, 1e-12}) CHECK(begin.value(0.1 + after) == Approx(5 * after).margin(1e-16));
+}
+
 TEST_CASE("drives that jump, are infinitely fast, or are not 0 at the start are refused") {
   CHECK_THROWS_WITH(kinks("angle: 'pulse(t, 0.5, 0.7)'"), Contains("jumps from 0 to 1 rad at t = 0.5"));
   CHECK_THROWS_WITH(kinks("angle: 'sqrt(t)'"), Contains("is infinite at t = 0"));

@@ -19,3 +19,13 @@ TEST_CASE("integrals pass corners and jumps") {
   CHECK(ramp(1.0) == Approx(0.63 * 0.63).epsilon(1e-11));
   CHECK(ramp(3.0) == Approx(0.74 * 0.74 + 5 * 1.89).epsilon(1e-10));
 }
+
+TEST_CASE("integrals from break to break see what no point of a rule sees") {
+  const auto pulse = [](double t) { return t > 0.1 && t < 0.1002 ? 10. : 0.; };
+  CHECK(Integral(pulse, 16.)(5.) == 0);  // without the breaks
+  const Integral seen(pulse, 16., {0.1, 0.1002});
+  CHECK(seen(0.1) == 0);
+  CHECK(seen(0.1001) == Approx(1e-3).epsilon(1e-12));
+  CHECK(seen(5.) == Approx(2e-3).epsilon(1e-12));
+  CHECK(seen(40.) == Approx(2e-3).epsilon(1e-12));
+}
