@@ -38,11 +38,11 @@ std::string derivative_words(const scene::DerivativesSpec& spec, int fields, con
 
 /// Basis vectors of a body of strains of second order whose elastic force has so many products of coordinates that its
 /// reduction takes more than about ten seconds. Empty: fewer, or the scene omits some.
-std::string products_note(const scene::Body& body, int attached, std::int64_t elements) {
+std::string products_note(const scene::Body& body, const assess::AttachmentModes& attached, std::int64_t elements) {
   using Choice = scene::DerivativesSpec::Choice;
   constexpr std::int64_t many = 3000000;  // of all elements
   const scene::ReductionSpec& reduction = body.reduction;
-  const std::int64_t fields = reduction.modes.count + attached, all = fields * (fields + 1) / 2;
+  const std::int64_t fields = reduction.modes.count + attached.count, all = fields * (fields + 1) / 2;
   const std::int64_t vectors = fields + (reduction.derivatives.choice == Choice::all     ? all
                                          : reduction.derivatives.choice == Choice::count ? reduction.derivatives.count
                                          : reduction.derivatives.choice == Choice::none
@@ -65,16 +65,16 @@ std::string reduced_words(const output::ReducedBodyFile& file, const std::string
   return fmt::format("{}, from {}", fmt::join(words, ", "), path);
 }
 
-/// @param attached  number of attachment modes
-std::string basis_words(const scene::Body& body, int attached) {
+std::string basis_words(const scene::Body& body, const assess::AttachmentModes& attached) {
   if (body.rigid) return "rigid";
   if (body.reduced) return reduced_words(*body.reduced->file, body.reduced->path);
   const scene::ModesSpec& modes = body.reduction.modes;
   return fmt::format(
       "{} modes ({}), {}{}", modes.count,
       modes.of == scene::ModesSpec::Of::joints ? "with its joints fixed" : "under its frame's conditions",
-      attached > 0 ? fmt::format("up to {} attachment modes, ", attached) : "",
-      derivative_words(body.reduction.derivatives, modes.count + attached, attached > 0 ? "up to " : "all "));
+      attached.count > 0 ? fmt::format("{}{} attachment modes, ", attached.exact ? "" : "up to ", attached.count) : "",
+      derivative_words(body.reduction.derivatives, modes.count + attached.count,
+                       attached.count == 0 || attached.exact ? "all " : "up to "));
 }
 
 /// From so many elements on, `check` does not build the full-order system: it would take seconds and gigabytes.
@@ -186,7 +186,7 @@ output::Table frequency_table(const std::vector<assess::BodyProperties>& bodies)
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted, int frequencies) {
   const scene::Scene split = plan::split_frames(scene, comm);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
-  const std::vector<int> attached = assess::check_modes(scene, comm);
+  const std::vector<assess::AttachmentModes> attached = assess::check_modes(scene, comm);
   const std::vector<assess::BodyProperties> properties = assess::body_properties(scene, comm, frequencies);
   std::int64_t elements = 0;
   for (std::size_t b = 0; b < sizes.size(); ++b)

@@ -241,7 +241,7 @@ TEST_CASE("joints and probes that events name must be there") {
   CHECK_THAT(fault("e: {unlock: hinges, at: 0.5}"), Contains("did you mean \"hinge\"?"));
   CHECK_THAT(fault("e: {unlock: hinge}"), Contains("none of at, when, probe"));
   CHECK_THAT(fault("e: {unlock: hinge, lock: hinge, at: 0.5}"), Contains("unlock and lock together"));
-  CHECK_THAT(fault("e: {stop: true, probe: turns.angle, crosses: 1}"), Contains("did you mean \"turn\"?"));
+  CHECK_THAT(fault("e: {stop: true, probe: turns.angle, crosses: 1}"), Contains("did you mean \"turn.angle\"?"));
   CHECK_THAT(fault("e: {stop: true, at: 2}"), Contains("at most motion.end, 1"));
 }
 
