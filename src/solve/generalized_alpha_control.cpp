@@ -172,8 +172,10 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
 // The distance that a step from rest without a force is judged by: of the longest attempt that resolves the load, for
 // with one that grows as t^p distances fall with the power 2 + p of the step from each attempt to the next: at the
 // start of the motion twice in a row, since a load that alternates does so once by chance. One that begins more steeply
-// (p < 0.4) is not waited for.
-void note_start(GeneralizedAlpha* data) {
+// (p < 0.4) is not waited for. The distance counts until the end of that attempt: by then the motion has gone it, or it
+// was that of a load that the attempt did not resolve.
+void note_start(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscInt most_attempts = 8;
   const PetscReal ratio = data->start_h / data->h;
   const bool falls = data->start_tried > 0 && ratio * ratio * ratio * data->reach_tried <= 4 * data->start_tried;
@@ -181,7 +183,7 @@ void note_start(GeneralizedAlpha* data) {
   if (++data->start_attempts > most_attempts)
     data->start_falls = 2;
   else if (!falls)
-    data->start_reach = data->reach_tried;
+    data->start_reach = data->reach_tried, data->start_until = ts->ptime + data->h;
   data->start_tried = data->reach_tried;
   data->start_h = data->h;
 }
@@ -215,9 +217,10 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   data->reach_tried = PetscSqrtReal(sums[1]);
   const PetscReal round_off = least * PetscSqrtReal(sums[2]);
   const bool rests = data->from_rest && !(data->reach_tried > round_off);  // the load begins later
-  if (data->from_rest && !rests) note_start(data);
+  if (data->from_rest && !rests) note_start(ts);
   const PetscReal moved = PetscMax(data->reach, data->reach_tried);
-  const PetscReal reach = PetscMax(PetscMax(moved, data->start_reach), round_off);
+  const PetscReal expected = data->from_rest || ts->ptime < data->start_until ? data->start_reach : 0;
+  const PetscReal reach = PetscMax(PetscMax(moved, expected), round_off);
   *error = reach > 0 ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
   if (rests)
     *error = -1;

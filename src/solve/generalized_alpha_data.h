@@ -66,6 +66,7 @@ struct GeneralizedAlpha {
   Vec origin = nullptr;
   PetscReal reach = 0, reach_tried = 0;
   PetscReal start_reach = 0, start_tried = 0, start_h = 0;  // of attempts at a first step from rest
+  PetscReal start_until = 0;                                // the end of the attempt that start_reach is of
   PetscInt start_attempts = 0, start_falls = 0;
 
   // Where the Jacobian that SNES has was formed: a motion that is taken up again forms it once more.

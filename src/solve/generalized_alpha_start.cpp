@@ -101,7 +101,7 @@ PetscErrorCode mark_origin(TS ts) {
   PetscFunctionBegin;
   if (!data->started) {
     PetscCall(VecCopy(data->U0, data->origin));
-    data->reach = data->start_reach = data->start_tried = 0;
+    data->reach = data->start_reach = data->start_tried = data->start_until = 0;
     data->start_attempts = data->start_falls = 0;
   }
   PetscCall(note_rest(ts));

@@ -40,7 +40,7 @@ void each_number(TS ts, Visit&& visit) {
   visit(data->equal_steps), visit(data->unresolved), visit(data->after_event);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
   visit(data->reach), visit(data->reach_tried), visit(data->start_reach), visit(data->start_tried),
-      visit(data->start_h), visit(data->start_attempts), visit(data->start_falls);
+      visit(data->start_h), visit(data->start_until), visit(data->start_attempts), visit(data->start_falls);
   visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);
 }
 
