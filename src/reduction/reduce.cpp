@@ -96,18 +96,22 @@ std::vector<double> energy_norms(const Statics& statics, const Generators& gener
   return norms;
 }
 
-/// What is nothing beside the others becomes zero, by the displacements of the nodes: modes in two planes of bending
-/// have no derivative in common. Collective.
+/// What is nothing beside the others becomes zero, by the displacements of the nodes and their rotations, which count
+/// by the extent of the body (a derivative of bending in two planes twists a straight line and does not displace it):
+/// of modes without a derivative in common a solver leaves round-off. Collective.
 /// @param scales  of the fields that each column is a derivative of: with fields of the same strain energy the
 ///                stretching ones are as many times smaller as they are stiffer
 void drop_round_off(const fem::Structure& structure, const std::vector<double>& scales, Columns& columns) {
-  const int per_node = structure.dofs_per_node;
+  const int per_node = structure.dofs_per_node, d = structure.dimension();
+  const double length = fem::extent(structure);
   std::vector<double> squares;
   for (const auto& column : columns) {
     petsc::Values values(column);
     const Eigen::Map<const Eigen::MatrixXd> nodes(values.begin(), per_node, structure.mesh.owned_nodes);
     const double scale = scales[squares.size()];
-    squares.push_back(nodes.topRows(structure.dimension()).squaredNorm() / (scale > 0 ? scale * scale : 1));
+    const double square =
+        nodes.topRows(d).squaredNorm() + length * length * nodes.bottomRows(per_node - d).squaredNorm();
+    squares.push_back(square / (scale > 0 ? scale * scale : 1));
   }
   MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM,
                 structure.mesh.comm);

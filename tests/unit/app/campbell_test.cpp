@@ -102,6 +102,26 @@ TEST_CASE("campbell: axes that are missing or wrong are refused with what was ex
   CHECK_THAT(refusal(spatial(fixed), request), Contains("the axis is not that of one driven or revolute joint"));
 }
 
+// The derivative of bending in two planes twists the straight line and does not displace it: without it the strip under
+// its load is 8 % off at rest already.
+TEST_CASE("campbell: a strip that its load bends and twists, reduced") {
+  const std::string strip = R"yaml(
+bodies:
+  strip:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 12}}
+    section: {shape: rectangle, width: 0.008, height: 0.04, orientation: [0, 1, 0]}
+    material: {E: 5e9, nu: 0.3, rho: 1200}
+    reduction: {modes: 4, attachment: all}
+joints: {root: {type: driven, between: [ground, strip.start], axis: [0, 0, 1], speed: 1}}
+loads: {tip: {type: force, at: strip.end, axes: body, force: [0, 0, -28]}}
+)yaml";
+  const CampbellDiagram reduced = diagram(strip, Formulation::vm_md, at("5", 3)),
+                        full = diagram(strip, Formulation::nlffr, at("5", 3));
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(reduced.points.at(0).vibrations.at(i).omega ==
+          Approx(full.points.at(0).vibrations.at(i).omega).epsilon(1e-4));
+}
+
 namespace {
 
 // It hangs outwards at all speeds, and inwards there is an unstable equilibrium, too.
@@ -114,7 +134,7 @@ bodies:
     section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0]}
     material: {E: 7e10, nu: 0.3, rho: 2700}
   rod:
-    mesh: {line: {from: [0, 0, 0], to: [0.75, 0, 0], elements: 6}}
+    mesh: {line: {from: [0, 0, 0], to: [0.75, 0, 0], elements: 8}}
     section: {shape: rectangle, width: 0.02, height: 0.002, orientation: [0, 0, 1]}
     material: {E: 7e10, nu: 0.3, rho: 2700}
     initial: {rotation: [0, 1.4, 0], position: [0.05, 0, 0]}
