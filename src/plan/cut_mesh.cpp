@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "floe/error.h"
 #include "floe/math/disjoint_sets.h"
@@ -143,26 +144,32 @@ std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
   return both;
 }
 
-/// Each rigid region belongs to the first piece that has all of it, with an independent node that has no elements.
+/// Each rigid region belongs to the first piece that has all of its nodes with elements; those without have its piece.
 /// @return  of each link its piece
 std::vector<int> pieces_of_links(const Body& body, const WholeMesh& whole, std::vector<std::vector<int>>& of_nodes) {
-  std::map<PetscInt, std::vector<int>> shared;  // by independent node
+  std::map<PetscInt, std::optional<std::vector<int>>> shared;  // by independent node; none: no node with elements
+  const auto restrict_to = [](std::optional<std::vector<int>>& pieces, const std::vector<int>& of_node) {
+    if (!of_node.empty()) pieces = pieces ? common(*pieces, of_node) : of_node;
+  };
   for (const mesh::DependentNode& link : whole.links) {
-    const auto [at, fresh] = shared.emplace(link.independent_node, of_nodes[link.node]);
-    if (fresh && !of_nodes[link.independent_node].empty())
-      at->second = common(at->second, of_nodes[link.independent_node]);
-    if (!fresh) at->second = common(at->second, of_nodes[link.node]);
+    const auto [at, fresh] = shared.try_emplace(link.independent_node);
+    if (fresh) restrict_to(at->second, of_nodes[link.independent_node]);
+    restrict_to(at->second, of_nodes[link.node]);
   }
   for (auto& [independent_node, pieces] : shared) {
-    if (pieces.empty())
+    if (!pieces) pieces = {0};
+    if (pieces->empty())
       throw InputError(
           fmt::format("{}: the rigid link of node {} of body {} lies in several of its {} frames; expected "
                       "fewer frames, which do not cut it",
                       frames_of(body), whole.mesh.node_labels[independent_node], body.name, body.frames));
-    if (of_nodes[independent_node].empty()) of_nodes[independent_node] = {pieces.front()};
+    if (of_nodes[independent_node].empty()) of_nodes[independent_node] = {pieces->front()};
   }
   std::vector<int> all;
-  for (const mesh::DependentNode& link : whole.links) all.push_back(shared.at(link.independent_node).front());
+  for (const mesh::DependentNode& link : whole.links) {
+    all.push_back(shared.at(link.independent_node)->front());
+    if (of_nodes[link.node].empty()) of_nodes[link.node] = {all.back()};
+  }
   return all;
 }
 

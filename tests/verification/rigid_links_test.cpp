@@ -8,12 +8,14 @@ using namespace floe::test;
 
 namespace {
 
-/// A blade of 1 m along x with a node 0.1 m above its end, by a rigid link whose independent node this is.
-std::string armed_deck(int elements) {
+/// A blade of 1 m along x with a node 0.1 m above its end, by a rigid link whose independent node this is, or the end.
+std::string armed_deck(int elements, bool end_independent = false) {
   std::string text = "BEGIN BULK\nMAT1,1,7.+10,,0.,2700.\nPBAR,2,1,8.-4,2.66667-6,1.06667-9,4.-9\n";
   for (int i = 0; i <= elements; ++i) text += fmt::format("GRID,{},,{:.6f},0.,0.\n", i + 1, double(i) / elements);
   for (int i = 1; i <= elements; ++i) text += fmt::format("CBAR,{0},2,{0},{1},0.,1.,0.\n", i, i + 1);
-  return text + fmt::format("GRID,999,,1.,0.,0.1\nRBE2,77,999,123456,{}\nENDDATA\n", elements + 1);
+  const int end = elements + 1;
+  return text + fmt::format("GRID,999,,1.,0.,0.1\nRBE2,77,{},123456,{}\nENDDATA\n", end_independent ? end : 999,
+                            end_independent ? 999 : end);
 }
 
 }  // namespace
@@ -49,4 +51,26 @@ probes: {end: {at: {body: b, node: [1, 0, 0]}, quantity: rotation}}
                             formulation);
     CHECK(at["end.ry"].back() == Approx(expected).epsilon(N < 100 ? 5e-3 : 1e-2));
   }
+}
+
+// Whichever of the two nodes is the independent one: the one without elements is of the piece that has the other.
+TEST_CASE("rigid links: an arm at a body of several frames") {
+  const Scratch scratch;
+  const bool end_independent = GENERATE(false, true);
+  const std::string deck = (scratch.path / "armed.bdf").string();
+  write_text(deck, armed_deck(12, end_independent));
+  std::vector<double> ends;
+  for (const char* frames : {"1", "2"})
+    ends.push_back(rest(fill(R"yaml(
+bodies: {b: {mesh: {file: {path: $deck}}, frames: $frames}}
+joints: {root: {type: fixed, between: [ground, {body: b, node: [0, 0, 0]}]}}
+loads: {pull: {type: force, at: {body: b, node: [1, 0, 0.1]}, force: [1, 2, 0]}}
+motion: {end: 1, step: 1}
+probes: {end: {at: {body: b, node: [1, 0, 0]}, quantity: rotation}}
+)yaml",
+                             {{"deck", deck}, {"frames", frames}}),
+                        Formulation::nlffr)["end.ry"]
+                       .back());
+  CHECK(ends[0] > 1e-3);
+  CHECK(ends[1] == Approx(ends[0]).epsilon(1e-3));
 }

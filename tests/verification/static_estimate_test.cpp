@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "estimated.h"
+#include "floe/assembly/offline.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -32,7 +33,10 @@ void check_effectivity(const std::string& name, const std::string& text, double 
     const Estimated reduced = rest_and_estimate(text, formulation, 4);
     REQUIRE(reduced.estimate.none == "");
     REQUIRE(reduced.estimate.t.size() == 4);
-    CHECK(reduced.estimate.unbalanced < 1e-6);
+    bool condensed = false;  // its force is the gradient of the energy over W, not V' times that of full order
+    for (const assembly::ReducedBody& body : reduced.history.model.offline->reduced)
+      condensed = condensed || !body.relief.pairs.empty();
+    CHECK(reduced.estimate.unbalanced < (condensed ? 1e-2 : 1e-6));
     for (std::size_t p = 0; p < reduced.estimate.probes.size(); ++p) {
       const std::string& probe = reduced.history.model.probes[p].name;
       const double error = vector_error(reduced.history, full, probe), estimate = reduced.estimate.probes[p];
