@@ -12,6 +12,11 @@ petsc::VecHandle copy_of(Vec V) {
   return copy;
 }
 
+/// For give_way; null: it does nothing.
+petsc::VecHandle accelerations_before(const System& system, double t, double h, Vec U, Vec V) {
+  return h > 0 && system.damps_strains() ? accelerations_at(system, t, copy_of(U), V) : petsc::VecHandle();
+}
+
 }  // namespace
 
 EventReport apply_event(const System& system, const Event& event, double t, double h, Vec U, Vec V) {
@@ -19,6 +24,7 @@ EventReport apply_event(const System& system, const Event& event, double t, doub
   if (!event.constraint_switch) return report;
   report.switches = true;
   const double before = system.energy(t, U, V).kinetic;
+  const petsc::VecHandle accelerations = event.closes ? petsc::VecHandle() : accelerations_before(system, t, h, U, V);
   event.constraint_switch->closed = event.closes;
   system.commit_step(U, V, t);
   const petsc::VecHandle impulses = system.create_vector(), rates = copy_of(V);
@@ -27,7 +33,10 @@ EventReport apply_event(const System& system, const Event& event, double t, doub
   } catch (const RunError& error) {
     throw RunError("event " + event.name + " (" + event.what + "): " + error.what());
   }
-  if (!event.closes) return report;
+  if (!event.closes) {
+    report.damped = -give_way(system, t, h, U, accelerations, V);
+    return report;
+  }
   report.lost = before - system.energy(t, U, V).kinetic;
   report.damped = damp_jump(system, t, h, U, rates, V, impulses);
   Eigen::VectorXd local;
@@ -40,12 +49,17 @@ EventReport pass(const System& system, const Kink& kink, double h, Vec U, Vec V)
   EventReport report{kink.name, kink.what, 0.5 * (kink.before + kink.after)};
   const double before = system.energy(kink.after, U, V).kinetic;
   const petsc::VecHandle rates = copy_of(V);
+  const petsc::VecHandle accelerations =
+      kink.what.empty() ? accelerations_before(system, kink.before, h, U, V) : petsc::VecHandle();
   try {  // where they do not jump, too: what a step leaves of their error would come back in the multipliers
     consistent_velocities(system, kink.after, U, V);
   } catch (const RunError& error) {
     throw RunError(kink.what.empty() ? std::string(error.what()) : kink.name + " (" + kink.what + "): " + error.what());
   }
-  if (kink.what.empty()) return report;
+  if (kink.what.empty()) {
+    give_way(system, kink.after, h, U, accelerations, V);
+    return report;
+  }
   damp_jump(system, kink.after, h, U, rates, V);
   report.work = system.energy(kink.after, U, V).kinetic - before;
   return report;

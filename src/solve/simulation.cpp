@@ -165,15 +165,7 @@ void find_start(TS ts, MotionContext& context) {
   Vec U = nullptr, V = nullptr;
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
-  petsc::VecHandle A = context.system.create_vector();
-  int found = 1;
-  try {
-    consistent_start(context.system, t, U, V, A);
-  } catch (const RunError&) {
-    found = 0;
-  }
-  check(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, context.system.comm()));
-  if (found) context.accelerations = std::move(A);
+  if (petsc::VecHandle A = accelerations_at(context.system, t, U, V)) context.accelerations = std::move(A);
 }
 
 /// From event to event, to the end. Returns whether an event ended the motion before.

@@ -168,31 +168,87 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
   return wrong > 1e-12 ? 1 : 0;  // bodies at rest, and drives whose rates are round-off: nothing to tell of
 }
 
+petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V) {
+  petsc::VecHandle A = system.create_vector();
+  int found = 1;
+  try {
+    consistent_start(system, t, U, V, A);
+  } catch (const RunError&) {
+    found = 0;
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, system.comm()));
+  return found != 0 ? std::move(A) : petsc::VecHandle();
+}
+
+namespace {
+
+/// w <- (1 - R) w = (M + h C)^-1 h C w, with the rows of the joints, whose multipliers come into `held`. C at rest.
+class DampedPart {
+ public:
+  DampedPart(const System& system, double t, double h, Vec U)
+      : system_(system),
+        t_(t),
+        h_(h),
+        U_(U),
+        mass_(system.create_tangent()),
+        b_(system.create_vector()),
+        undamped_(system.create_vector()) {
+    system.damped_mass(t, U, 0, mass_);
+  }
+  void operator()(Vec w, Vec held) const {
+    const petsc::MatHandle J = system_.create_tangent();  // the solver scales and overwrites it
+    system_.damped_mass(t_, U_, h_, J);
+    check(MatMult(J, w, b_));
+    check(MatMult(mass_, w, undamped_));
+    check(VecAXPY(b_, -1, undamped_));
+    keep_rows(system_, b_, false);
+    split(system_, solve_saddle(system_, J, b_), held, w);
+  }
+
+ private:
+  const System& system_;
+  double t_, h_;
+  Vec U_;
+  petsc::MatHandle mass_;
+  petsc::VecHandle b_, undamped_;
+};
+
+}  // namespace
+
 double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V, Vec impulses) {
   if (!(h > 0) || !system.damps_strains()) return 0;
   const double kinetic = system.energy(t, U, V).kinetic;
   const AtBase at_base(system, U, V, t);
-  const petsc::VecHandle w = system.create_vector(), b = system.create_vector(), undamped = system.create_vector(),
-                         held = system.create_vector();
-  const petsc::MatHandle mass = system.create_tangent();
-  system.damped_mass(t, U, 0, mass);
+  const petsc::VecHandle w = system.create_vector(), held = system.create_vector();
+  const DampedPart damped_part(system, t, h, U);
   check(VecWAXPY(w, -1, before, V));
   keep_rows(system, w, false);
-  for (int i = 0; i < 2; ++i) {
-    const petsc::MatHandle J = system.create_tangent();  // the solver scales and overwrites it
-    system.damped_mass(t, U, h, J);
-    check(MatMult(J, w, b));
-    check(MatMult(mass, w, undamped));
-    check(VecAXPY(b, -1, undamped));
-    keep_rows(system, b, false);
-    split(system, solve_saddle(system, J, b), held, w);
-  }
+  for (int i = 0; i < 2; ++i) damped_part(w, held);
   check(VecAXPY(V, -1, w));
   if (impulses) {
     keep_rows(system, held, true);
     check(VecAXPY(impulses, -1, held));
   }
   return kinetic - system.energy(t, U, V).kinetic;
+}
+
+double give_way(const System& system, double t, double h, Vec U, Vec before, Vec V) {
+  if (!before || !(h > 0) || !system.damps_strains()) return 0;
+  const petsc::VecHandle held = system.create_vector(), twice = system.create_vector();
+  check(VecCopy(U, held));
+  const petsc::VecHandle w = accelerations_at(system, t, held, V);
+  if (!w) return 0;
+  const double kinetic = system.energy(t, U, V).kinetic;
+  const AtBase at_base(system, U, V, t);
+  const DampedPart damped_part(system, t, h, U);
+  check(VecAXPY(w, -1, before));
+  keep_rows(system, w, false);
+  for (int i = 0; i < 2; ++i) damped_part(w, held);
+  check(VecCopy(w, twice));
+  damped_part(w, held);
+  check(VecAXPY(V, h, twice));
+  check(VecAXPY(V, -h, w));
+  return system.energy(t, U, V).kinetic - kinetic;
 }
 
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {

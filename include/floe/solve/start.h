@@ -40,6 +40,22 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
 /// Collective. Two factorisations, none where nothing damps strains.
 double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V, Vec impulses = nullptr);
 
+/// consistent_start, in a new vector; null where accelerations cannot be found (the step that follows says why).
+/// Collective.
+petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V);
+
+/// Where forces jump, adds to the velocities what bodies whose strains are damped give way with within a step h:
+///
+///   V += h R (1 - R)^2 (A - before),   R = (M + h C)^-1 M   with the rows of the joints,   C at rest
+///
+/// which is h^2 of what a step resolves, and C^-1 of the jump of the forces for what it does not (rates of beta omega^2
+/// h >> 1). A step that made this jump itself would have accelerations of 1/h that alternate from step to step, and
+/// with them the forces of joints.
+/// @param before  accelerations before the jump; null: nothing is done.  @param h  0: nothing is done
+/// @return  what this adds to the kinetic energy [J]
+/// Collective. Four factorisations, none where nothing damps strains.
+double give_way(const System& system, double t, double h, Vec U, Vec before, Vec V);
+
 /// |C(q, t)|, or of its rate, maximum over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
 
