@@ -231,19 +231,21 @@ void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) cons
       t, [&](const Term&) { return weights; }, J);
 }
 
-void System::damped_mass(double t, Vec U, double h, Mat J) const {
+void System::damped_mass(double t, Vec U, double h, Mat J, bool lasting) const {
   gather(U, local_.q);
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
   assemble(
       t,
-      [h](const Term& term) {
-        return term.damps_strains() ? Weights{0, h, 1} : Weights{0, 0, 1};
+      [h, lasting](const Term& term) {
+        const double beta = term.strain_damping();
+        if (!(beta > 0)) return Weights{0, 0, 1};
+        return Weights{0, lasting ? h / (1 + std::pow(h / (12 * beta), 6)) : h, 1};
       },
       J);
 }
 
 bool System::damps_strains() const {
-  int any = std::any_of(terms_.begin(), terms_.end(), [](const auto& term) { return term->damps_strains(); });
+  int any = std::any_of(terms_.begin(), terms_.end(), [](const auto& term) { return term->strain_damping() > 0; });
   if (!whole_) petsc::check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm()));
   return any != 0;
 }

@@ -182,7 +182,7 @@ petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V) 
 
 namespace {
 
-/// w <- (1 - R) w = (M + h C)^-1 h C w, with the rows of the joints, whose multipliers come into `held`. C at rest.
+/// Of motions w that joints allow, what strongly damped vibrations have of them, C at rest.
 class DampedPart {
  public:
   DampedPart(const System& system, double t, double h, Vec U)
@@ -195,17 +195,30 @@ class DampedPart {
         undamped_(system.create_vector()) {
     system.damped_mass(t, U, 0, mass_);
   }
-  void operator()(Vec w, Vec held) const {
-    const petsc::MatHandle J = system_.create_tangent();  // the solver scales and overwrites it
-    system_.damped_mass(t_, U_, h_, J);
-    check(MatMult(J, w, b_));
+  /// w <- J^-1 h C w, J = M + h C with the rows of the joints, whose multipliers come into `held`: 1 - R.
+  /// @param lasting  C of System::damped_mass
+  void damp(Vec w, Vec held, bool lasting = false) const {
+    const petsc::MatHandle damped = system_.create_tangent();
+    system_.damped_mass(t_, U_, h_, damped, lasting);
+    check(MatMult(damped, w, b_));
     check(MatMult(mass_, w, undamped_));
     check(VecAXPY(b_, -1, undamped_));
+    solve(w, held);
+  }
+  /// w <- J^-1 M w: R.
+  void keep(Vec w, Vec held) const {
+    check(MatMult(mass_, w, b_));
+    solve(w, held);
+  }
+
+ private:
+  void solve(Vec w, Vec held) const {
+    const petsc::MatHandle J = system_.create_tangent();  // the solver scales and overwrites it
+    system_.damped_mass(t_, U_, h_, J);
     keep_rows(system_, b_, false);
     split(system_, solve_saddle(system_, J, b_), held, w);
   }
 
- private:
   const System& system_;
   double t_, h_;
   Vec U_;
@@ -223,7 +236,7 @@ double damp_jump(const System& system, double t, double h, Vec U, Vec before, Ve
   const DampedPart damped_part(system, t, h, U);
   check(VecWAXPY(w, -1, before, V));
   keep_rows(system, w, false);
-  for (int i = 0; i < 2; ++i) damped_part(w, held);
+  for (int i = 0; i < 2; ++i) damped_part.damp(w, held);
   check(VecAXPY(V, -1, w));
   if (impulses) {
     keep_rows(system, held, true);
@@ -234,7 +247,7 @@ double damp_jump(const System& system, double t, double h, Vec U, Vec before, Ve
 
 double give_way(const System& system, double t, double h, Vec U, Vec before, Vec V) {
   if (!before || !(h > 0) || !system.damps_strains()) return 0;
-  const petsc::VecHandle held = system.create_vector(), twice = system.create_vector();
+  const petsc::VecHandle held = system.create_vector();
   check(VecCopy(U, held));
   const petsc::VecHandle w = accelerations_at(system, t, held, V);
   if (!w) return 0;
@@ -243,11 +256,10 @@ double give_way(const System& system, double t, double h, Vec U, Vec before, Vec
   const DampedPart damped_part(system, t, h, U);
   check(VecAXPY(w, -1, before));
   keep_rows(system, w, false);
-  for (int i = 0; i < 2; ++i) damped_part(w, held);
-  check(VecCopy(w, twice));
-  damped_part(w, held);
-  check(VecAXPY(V, h, twice));
-  check(VecAXPY(V, -h, w));
+  damped_part.damp(w, held);
+  damped_part.damp(w, held, true);
+  damped_part.keep(w, held);
+  check(VecAXPY(V, h, w));
   return system.energy(t, U, V).kinetic - kinetic;
 }
 

@@ -31,7 +31,7 @@ class StrainRateDamping final : public Term {
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override {
     body::add_viscous_tangent(elasticity_, motion.q, motion.v, beta_ * weights.q, beta_ * weights.v, work_, J);
   }
-  bool damps_strains() const override { return true; }
+  double strain_damping() const override { return beta_; }
 
  private:
   std::vector<int> coordinates_;

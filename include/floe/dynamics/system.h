@@ -57,7 +57,9 @@ class System {
   /// w.q dF/dU + w.v dF/dV + w.a dF/dA, assembled. Collective.
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
   /// M + h C at U and at rest, C the damping of strains, with the rows and columns of constraints. Collective.
-  void damped_mass(double t, Vec U, double h, Mat J) const;
+  /// @param lasting  of each body times 1 / (1 + (h / (12 beta))^6), C = beta K: what strongly damped strains do lasts
+  ///                 for beta
+  void damped_mass(double t, Vec U, double h, Mat J, bool lasting = false) const;
   /// Whether any term damps strains: the same answer on all ranks. Collective.
   bool damps_strains() const;
   /// Collective.

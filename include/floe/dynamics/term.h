@@ -72,8 +72,8 @@ class Term {
   /// The configuration that a step begins from: what depends on the way there, as whole revolutions do, is taken over
   /// here and nowhere else. Of the motion a does not count. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
-  /// Whether it contains the damping of strains, which ends their rates by itself, however fast.
-  virtual bool damps_strains() const { return false; }
+  /// beta of the damping of strains that it contains, which ends their rates by itself, however fast [s]; 0: none.
+  virtual double strain_damping() const { return 0; }
   /// Appends which of its multipliers rotate with a frame: forces between places (System::rotate).
   virtual void add_corotated(std::vector<Corotated>&) const {}
   /// What the term carries from step to step beside the system's unknowns (begin_step, constraint switches), as

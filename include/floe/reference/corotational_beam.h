@@ -58,7 +58,7 @@ class CorotationalBeam : public dynamics::Term {
   void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
   dynamics::Energy energy(const dynamics::Motion& motion) const override;
-  bool damps_strains() const override { return properties_.viscosity != 0; }
+  double strain_damping() const override { return properties_.viscosity; }
   /// Gravity that changes with time, added to the other one; it has no potential. Empty: none.
   std::function<Eigen::Vector2d(double)> changing_gravity;
 

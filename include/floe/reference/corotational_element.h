@@ -47,7 +47,7 @@ class CorotationalElement final : public dynamics::Term {
   void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
   dynamics::Energy energy(const dynamics::Motion& motion) const override;
-  bool damps_strains() const override { return viscosity_ != 0; }
+  double strain_damping() const override { return viscosity_; }
   /// d, of which strains are functions, 6n. Valid until the next call.
   const Eigen::VectorXd& deformation(const dynamics::Motion& motion) const {
     see(motion, dynamics::EvaluationLevel::position);

@@ -48,9 +48,9 @@ petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V);
 ///
 ///   V += h R (1 - R)^2 (A - before),   R = (M + h C)^-1 M   with the rows of the joints,   C at rest
 ///
-/// which is h^2 of what a step resolves, and C^-1 of the jump of the forces for what it does not (rates of beta omega^2
-/// h >> 1). A step that made this jump itself would have accelerations of 1/h that alternate from step to step, and
-/// with them the forces of joints.
+/// which is h^3 of what a step resolves, and C^-1 of the jump of the forces for what it does not (rates of beta omega^2
+/// h >> 1), as far as this lasts (System::damped_mass). A step that made this jump itself would have accelerations of
+/// 1/h that alternate from step to step, and with them the forces of joints.
 /// @param before  accelerations before the jump; null: nothing is done.  @param h  0: nothing is done
 /// @return  what this adds to the kinetic energy [J]
 /// Collective. Four factorisations, none where nothing damps strains.
