@@ -53,7 +53,8 @@ struct FrequencyError {
 /// Estimated errors at the fastest steady rotation of a reduced model.
 struct CampbellEstimate {
   double speed = 0;
-  PetscInt coordinates = 0;  ///< of the model on larger bases
+  bool full_order = false;   ///< by the full-order model; else by one on larger bases
+  PetscInt coordinates = 0;  ///< of that model
   std::vector<FrequencyError> errors;
   std::string missing;  ///< why there is none; empty: there is, or the model is not reduced
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "campbell_check.h"
+#include "floe/assembly/offline.h"
 #include "floe/assembly/rotation.h"
 #include "model_hierarchy.h"
 
@@ -33,46 +34,75 @@ std::optional<scene::Scene> on_larger_bases(const scene::Scene& scene) {
   return any ? std::optional(larger) : std::nullopt;
 }
 
-std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const std::vector<solve::Vibration>& larger) {
+std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const std::vector<solve::Vibration>& better) {
   std::vector<FrequencyError> errors;
-  std::vector<char> used(larger.size());
+  std::vector<char> used(better.size());
   for (const TrackedVibration& one : point.vibrations) {
     if (one.omega == 0) continue;
-    const auto apart = [&](std::size_t i) { return std::abs(larger[i].omega - one.omega); };
+    const auto apart = [&](std::size_t i) { return std::abs(better[i].omega - one.omega); };
     std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < larger.size(); ++i)
-      if (!used[i] && larger[i].omega > 0 && (!nearest || apart(i) < apart(*nearest))) nearest = i;
+    for (std::size_t i = 0; i < better.size(); ++i)
+      if (!used[i] && better[i].omega > 0 && (!nearest || apart(i) < apart(*nearest))) nearest = i;
     if (!nearest) break;
     used[*nearest] = 1;
-    errors.push_back({one.track, apart(*nearest) / larger[*nearest].omega});
+    errors.push_back({one.track, apart(*nearest) / better[*nearest].omega});
   }
   return errors;
 }
 
+namespace {
+
+/// Before it is built.
+bool fits_at_full_order(const assembly::Model& model) {
+  PetscInt dofs = 0;
+  for (const assembly::PlannedBody& body : model.offline->plan.bodies)
+    if (is_meshed(body.spec)) dofs += body.structure.dofs();
+  return dofs <= solve::largest_rotating_system;
+}
+
+/// The vibrations at a speed of a better model.  @return  why not; empty: found
+std::string find_better(const scene::Scene& given, const scene::Scene& scene, scene::Formulation formulation, int modes,
+                        const CampbellPoint& at, MPI_Comm comm, const CampbellDiagram& diagram, CampbellPoint& point,
+                        PetscInt& coordinates) {
+  point = {at.speed, {}, 0, {}};
+  try {
+    CampbellDiagram second{{}, diagram.axis, plan_rotation(scene, formulation, comm), {}};
+    coordinates = second.model.coordinates;
+    if (coordinates <= diagram.model.coordinates)
+      throw InputError("the larger bases have no more coordinates than the model");
+    if (coordinates + second.model.multipliers > solve::largest_rotating_system)
+      throw InputError("the better model has too many unknowns");
+    follow(assembly::rotating_system(given, second.model, second.axis), diagram, at, modes + 2, second.model.U, point);
+    return point.fault;
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
 void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
                           CampbellDiagram& diagram) {
-  if (diagram.model.formulation != scene::Formulation::vm && diagram.model.formulation != scene::Formulation::vm_md)
-    return;
+  if (!is_reduced(diagram.model.formulation)) return;
   CampbellEstimate& estimate = diagram.estimate;
   estimate.speed = speed;
   const CampbellPoint* at = steady_at(diagram, speed);
-  const std::optional<scene::Scene> larger = on_larger_bases(scene);
-  if (!at || !larger) {
-    estimate.missing = larger ? "no steady rotation" : "no body has a mesh from which a larger basis could be computed";
+  if (!at) {
+    estimate.missing = "no steady rotation";
     return;
   }
-  CampbellPoint point{speed, {}, 0, {}};
-  try {
-    CampbellDiagram second{{}, diagram.axis, plan_rotation(*larger, scene::Formulation::vm_md, comm), {}};
-    estimate.coordinates = second.model.coordinates;
-    if (estimate.coordinates <= diagram.model.coordinates)
-      throw InputError("the larger bases have no more coordinates than the model");
-    follow(assembly::rotating_system(given, second.model, second.axis), diagram, *at, modes + 2, second.model.U, point);
-    estimate.missing = point.fault;
-  } catch (const InputError& error) {
-    estimate.missing = error.what();
-  } catch (const RunError& error) {
-    estimate.missing = error.what();
+  CampbellPoint point;
+  if (fits_at_full_order(diagram.model))
+    estimate.full_order =
+        find_better(given, scene, scene::Formulation::nlffr, modes, *at, comm, diagram, point, estimate.coordinates)
+            .empty();
+  if (!estimate.full_order) {
+    const std::optional<scene::Scene> larger = on_larger_bases(scene);
+    estimate.missing = larger ? find_better(given, *larger, scene::Formulation::vm_md, modes, *at, comm, diagram, point,
+                                            estimate.coordinates)
+                              : "no body has a mesh from which a larger basis could be computed";
   }
   if (estimate.missing.empty())
     estimate.errors = frequency_errors(*at, {point.vibrations.begin(), point.vibrations.end()});

@@ -10,13 +10,14 @@ inline constexpr int most_vectors = 100;
 
 /// Relative errors of the frequencies of a reduced model,
 ///
-///   |omega - omega'| / omega',   omega' nearest of the model on larger bases (on_larger_bases) at the same speed,
+///   |omega - omega'| / omega',   omega' nearest of the better model at the same speed,
 ///
 /// each omega' used once, from the slowest on. Vibrations without an oscillation, and zero ones, have none.
-std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const std::vector<solve::Vibration>& larger);
+std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const std::vector<solve::Vibration>& better);
 
-/// Sets the estimate of a reduced diagram: frequency errors at `speed`, the fastest steady rotation, by a model on
-/// larger bases that comes there as the diagram does; or why there is none.
+/// Sets the estimate of a reduced diagram: frequency errors at `speed`, the fastest steady rotation, by a better model
+/// that comes there as the diagram does; or why there is none. It is the full-order model where that has vibrations (up
+/// to solve::largest_rotating_system unknowns, no bodies from files), else one on larger bases (on_larger_bases).
 /// @param given, scene  what the user wrote, and with a probe of the hub. Collective.
 void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
                           CampbellDiagram& diagram);

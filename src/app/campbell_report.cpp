@@ -79,7 +79,9 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
     j["speeds"].push_back(at);
   }
   if (const CampbellEstimate& estimate = diagram.estimate; !estimate.errors.empty()) {
-    j["estimate"] = {{"rad_per_s", estimate.speed}, {"coordinates", estimate.coordinates}};
+    j["estimate"] = {{"rad_per_s", estimate.speed},
+                     {"by", estimate.full_order ? "nlffr" : "larger bases"},
+                     {"coordinates", estimate.coordinates}};
     for (const FrequencyError& one : estimate.errors)
       j["estimate"]["frequencies"].push_back({{"track", one.track}, {"relative_error", one.relative}});
   } else if (!estimate.missing.empty()) {
@@ -121,8 +123,10 @@ std::string text_of(const CampbellEstimate& estimate) {
   for (const FrequencyError& one : estimate.errors)
     text += fmt::format("{}{:.2g} % (track {})", text.empty() ? "" : ", ", 100 * one.relative, one.track);
   if (text.empty()) return text;
-  return fmt::format("Estimated reduction error of the frequencies at {:.6g} rad/s, by a basis of {} coordinates: {}\n",
-                     estimate.speed, estimate.coordinates, text);
+  const std::string by = estimate.full_order ? "the full-order model (nlffr)" : "a basis";
+  return fmt::format("{} of the frequencies at {:.6g} rad/s, by {} of {} coordinates: {}\n",
+                     estimate.full_order ? "Reduction error" : "Estimated reduction error", estimate.speed, by,
+                     estimate.coordinates, text);
 }
 
 void show(const scene::Scene& scene, const CampbellDiagram& diagram, const output::ResultFolder& folder) {
