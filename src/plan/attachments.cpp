@@ -103,11 +103,12 @@ reduction::Attachment rigid_displacement(const PlannedBody& body, const Anchor& 
   return attachment;
 }
 
-/// Whether the scene rotates the body by a moment at a place of one of its joints: a hinge that is driven.
+/// Whether the scene rotates the body by a moment at a place that one of its joints has nodes of: a hinge that is
+/// driven.
 bool at_a_joint(const Plan& plan, const Anchor& load) {
   for (const auto& places : plan.joints)
     for (const Anchor& place : places)
-      if (place.body == load.body && place.node == load.node) return true;
+      if (place.body == load.body && share_a_node(place, load)) return true;
   return false;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -126,6 +128,30 @@ motion: {end: 0.1, step: 0.01}
   };
   CHECK(columns("start") == std::vector<std::string>{"attachment drive.moment"});
   CHECK(columns("end").empty());
+}
+
+// A spring at one corner of the edge or at the other: which node of the edge is its first one is no matter.
+TEST_CASE("a moment on an edge has columns where a joint is at any of its nodes") {
+  for (const char* corner : {"p2", "p3", "p1"}) {
+    const auto columns = labels(built(fmt::format(R"yaml(
+bodies:
+  plate:
+    mesh: {{plate: {{along: [0.4, 0, 0], across: [0, 0.2, 0], elements: [4, 2]}}}}
+    section: {{thickness: 0.002}}
+    material: {{E: 7e10, nu: 0.3, rho: 2700}}
+    reduction: {{modes: 2, derivatives: none}}
+joints:
+  root: {{type: fixed, between: [ground, plate.left]}}
+  spring: {{type: spring, between: [{{body: ground, node: [0.4, 0.1, 0.2]}}, plate.{}], stiffness: 50}}
+loads: {{m: {{type: moment, at: plate.right, moment: [t, 0, 0]}}}}
+motion: {{end: 0.1, step: 0.01}}
+)yaml",
+                                                  corner),
+                                      Formulation::vm_md),
+                                Kind::attachment);
+    INFO(corner);
+    CHECK((std::count(columns.begin(), columns.end(), "attachment m.mx") == 1) == (std::string(corner) != "p1"));
+  }
 }
 
 TEST_CASE("attachment columns stand where joints or loads act") {
