@@ -80,34 +80,77 @@ bool rotates_freely(const RotatingTangent& at, const VectorXd& rotation) {
   return (constrained.cwiseAbs().array() <= 1e-7 * size.array()).all();
 }
 
+/// Rigid motions of the scene beside its rotation about the axis, which a steady rotation leaves open: nothing holds
+/// them, and they change no force. M-orthonormal, and M-orthogonal to `rotation`; unknowns x their number. Without them
+/// the factor of a large free body is that of round-off.
+MatrixXd open_motions(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& u,
+                      const VectorXd& rotation) {
+  const bool plane = !rotating.planar_frames.empty();
+  const auto about = [&](const Eigen::Vector3d& point, int axis) {
+    RotatingSystem other = rotating;
+    other.axis = {point, Eigen::Vector3d::Unit(axis)};
+    return rotating_motion(other, 1, u).V;
+  };
+  std::vector<VectorXd> all;
+  const Eigen::Vector3d& point = rotating.axis.point;
+  for (int i = 0; i < (plane ? 2 : 3); ++i) {  // along i: the difference of rotations about two parallel axes
+    const int axis = plane ? 2 : (i + 1) % 3, across = plane ? 1 - i : (i + 2) % 3;
+    all.push_back(about(point, axis) - about(point + Eigen::Vector3d::Unit(across), axis));
+  }
+  for (int i = 0; i < (plane ? 0 : 3); ++i) all.push_back(about(point, i));
+  const Sparse size = at.K.cwiseAbs();
+  std::vector<VectorXd> open;
+  const double inertia = rotation.dot(at.M * rotation);
+  for (VectorXd& motion : all) {
+    if (!rotates_freely(at, motion)) continue;
+    const VectorXd force = at.K * motion, most = size * motion.cwiseAbs();
+    if (!(force.cwiseAbs().array() <= 1e-12 * most.array()).all()) continue;
+    const double before = std::sqrt(std::max(0.0, motion.dot(at.M * motion)));
+    for (int twice = 0; twice < 2; ++twice) {
+      if (inertia > 0) motion -= rotation.dot(at.M * motion) / inertia * rotation;
+      for (const VectorXd& other : open) motion -= other.dot(at.M * motion) * other;
+    }
+    const double norm = std::sqrt(std::max(0.0, motion.dot(at.M * motion)));
+    if (norm > 1e-6 * before) open.push_back(motion / norm);
+  }
+  MatrixXd found(u.size(), static_cast<Index>(open.size()));
+  for (std::size_t i = 0; i < open.size(); ++i) found.col(static_cast<Index>(i)) = open[i];
+  return found;
+}
+
 struct Step {
   VectorXd change;
   double spin_up = 0;  ///< angular acceleration about the axis that is left over [rad/s2]
 };
 
-/// Newton's step; where the scene is free to rotate, it does not, and may spin up instead: [J M b; (M b)' 0].
+/// Newton's step; where the scene is free to rotate, it does not, and may spin up instead: [J M b; (M b)' 0]. Nor does
+/// it move as nothing holds it.
 ///
 /// @param rotation  change of the coordinates as the scene rotates by one radian; zero where a drive holds it
+/// @param open      of open_motions
 /// Collective.
-Step newton_step(const RotatingTangent& at, const VectorXd& rotation, MPI_Comm comm) {
-  const VectorXd weighted = at.M * rotation;
-  const double inertia = rotation.dot(weighted);
+Step newton_step(const RotatingTangent& at, const VectorXd& rotation, const MatrixXd& open, MPI_Comm comm) {
+  const double inertia = rotation.dot(at.M * rotation);
+  const Index n = rotation.size(), first = inertia > 0 ? 1 : 0, count = first + open.cols();
   Sparse J = at.K + at.G;
-  if (!(inertia > 0)) return {solve(std::move(J), -at.F, comm)};
-  const Index n = rotation.size();
+  if (count == 0) return {solve(std::move(J), -at.F, comm)};
+  MatrixXd weighted(n, count);
+  if (first == 1) weighted.col(0) = at.M * rotation / inertia;
+  weighted.rightCols(open.cols()) = at.M * open;
   std::vector<Eigen::Triplet<double, PetscInt>> border;
-  for (Index i = 0; i < n; ++i) {
-    if (weighted[i] == 0) continue;
-    border.emplace_back(static_cast<PetscInt>(i), static_cast<PetscInt>(n), weighted[i] / inertia);
-    border.emplace_back(static_cast<PetscInt>(n), static_cast<PetscInt>(i), weighted[i] / inertia);
-  }
-  Sparse bordered(n + 1, n + 1);
+  for (Index k = 0; k < count; ++k)
+    for (Index i = 0; i < n; ++i) {
+      if (weighted(i, k) == 0) continue;
+      border.emplace_back(static_cast<PetscInt>(i), static_cast<PetscInt>(n + k), weighted(i, k));
+      border.emplace_back(static_cast<PetscInt>(n + k), static_cast<PetscInt>(i), weighted(i, k));
+    }
+  Sparse bordered(n + count, n + count);
   bordered.setFromTriplets(border.begin(), border.end());
-  J.conservativeResize(n + 1, n + 1);
-  VectorXd b = VectorXd::Zero(n + 1);
+  J.conservativeResize(n + count, n + count);
+  VectorXd b = VectorXd::Zero(n + count);
   b.head(n) = -at.F;
   const VectorXd x = solve(J + bordered, b, comm);
-  return {x.head(n), x[n] / inertia};
+  return {x.head(n), first == 1 ? x[n] / inertia : 0};
 }
 
 /// Accelerations that round-off, or a search that came near enough, leaves. [rad/s2]
@@ -150,7 +193,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
     VectorXd rotation = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = rotates_freely(at, rotation);
     if (!free) rotation.setZero();
-    const Step step = newton_step(at, rotation, rotating.system.comm());
+    const Step step = newton_step(at, rotation, open_motions(rotating, at, u, rotation), rotating.system.comm());
     const double size = size_of(step.change, mass_scale(rotating, at.M));
     if (!step.change.allFinite()) break;
     set(U, u + step.change);
@@ -168,10 +211,11 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
 VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
   const VectorXd F = rotating_tangent(rotating, other, U).F;
   RotatingTangent at = rotating_tangent(rotating, speed, U);
-  VectorXd rotation = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
+  const VectorXd u = gather_to_all(rotating.system, U);
+  VectorXd rotation = rotating_motion(rotating, 1, u).V;
   if (!rotates_freely(at, rotation)) rotation.setZero();
   at.F = F;
-  return newton_step(at, rotation, rotating.system.comm()).change;
+  return newton_step(at, rotation, open_motions(rotating, at, u, rotation), rotating.system.comm()).change;
 }
 
 /// From one steady rotation to another.

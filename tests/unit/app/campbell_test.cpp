@@ -123,6 +123,30 @@ loads: {tip: {type: force, at: strip.end, axes: body, force: [0, 0, -28]}}
           Approx(full.points.at(0).vibrations.at(i).omega).epsilon(1e-4));
 }
 
+// Nothing holds it: five rigid motions beside the rotation have no stiffness at rest, one while it rotates. In rotating
+// axes a body that translates, or whose axis of greatest inertia precesses, moves with the speed W.
+TEST_CASE("campbell: a free plate, of more unknowns than are solved by a dense factor") {
+  const std::string plate = R"yaml(
+bodies:
+  p:
+    mesh: {plate: {origin: [-0.5, -0.5, 0], along: [1, 0, 0], across: [0, 1, 0], elements: [8, 8], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints: {}
+)yaml";
+  CampbellRequest request = at("0,5", 8);
+  request.about = "0,0,1", request.through = "0,0,0";
+  const CampbellDiagram full = diagram(plate, Formulation::nlffr, request),
+                        reduced = diagram(plate, Formulation::vm_md, request);
+  for (const CampbellDiagram* one : {&full, &reduced}) {
+    for (const CampbellPoint& point : one->points) REQUIRE(point.fault == "");
+    for (const std::string& warning : one->model.warnings) CHECK_THAT(warning, !Contains("branch"));
+    const auto& vibrations = one->points[1].vibrations;
+    for (std::size_t i = 2; i < 6; ++i) CHECK(vibrations.at(i).omega == Approx(5).epsilon(1e-3));
+    CHECK(vibrations.at(6).omega == Approx(208.2).epsilon(1e-3));
+  }
+}
+
 namespace {
 
 // It hangs outwards at all speeds, and inwards there is an unstable equilibrium, too.
