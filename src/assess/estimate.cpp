@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "estimate_parts.h"
 #include "floe/assembly/body_stage.h"
@@ -105,6 +106,19 @@ solve::DeviationStart at_start(const Offline& offline, const Model& more) {
                                   start_of(more));
 }
 
+/// Of the reduced model itself, by their times: at its states the enriched model, whose energies are condensed over
+/// other displacements, has other forces of supports.
+std::map<double, std::vector<double>> values_of(const Model& reduced, const KeptMotion& motion) {
+  const dynamics::System& system = *reduced.system;
+  const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
+  std::map<double, std::vector<double>> values;
+  for (const State& state : motion.states()) {
+    solve::set_state(system, state, U, V, A);
+    values[state.t] = probe_values(reduced, state.t, U, V, A);
+  }
+  return values;
+}
+
 /// Follows the deviation, on every rank alike.
 void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const TimeBudget& time,
             Estimate& estimate) {
@@ -136,10 +150,11 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
     states = spread(states, count);
   }
+  const std::map<double, std::vector<double>> own = values_of(reduced, motion);
   ProbeErrors probes(probe_columns(more));
   double error = 0, size = 0;
   const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate, const VectorXd& second_rate) {
-    const std::vector<double> was = values(state);
+    const std::vector<double>& was = own.at(state.t);
     std::vector<double> gap = values(solve::deviated(system, state, d, rate, second_rate));
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
     probes.add(gap, was);

@@ -249,14 +249,17 @@ probes:
                     {Formulation::vm, Formulation::vm_md});
 }
 
-// Their energy is condensed; forces at a support are those of the condensed energy.
+// Their energy is condensed; forces at a support are those of the condensed energy. With 6 modes errors are 0.04 and
+// 0.01 %: the enriched model, condensed over other displacements, has moments that are 0.7 % apart at the same states.
 TEST_CASE("estimate: reactions of a support of a beam of second order") {
-  check_effectivity("beam on a support", R"yaml(
+  const auto beam = [](const char* modes) {
+    return fill(R"yaml(
 bodies:
   b:
     mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 12}}
     section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 1, 0]}
     material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: $modes}
 joints: {r: {type: support, between: [ground, b.start], hold: [x, y, z, rx, ry, rz]}}
 loads: {q: {type: distributed, body: b, force: [0, "20*sin(40*t)", "200*sin(60*t)"]}}
 motion: {end: 0.05, step: 1e-3}
@@ -264,7 +267,15 @@ probes:
   R: {joint: r, quantity: force}
   M: {joint: r, quantity: moment}
 )yaml",
-                    {Formulation::vm_md});
+                {{"modes", modes}});
+  };
+  for (const char* modes : {"3", "4"}) check_effectivity("beam on a support", beam(modes), {Formulation::vm_md});
+  const History full = move(beam("6"), Formulation::nlffr);
+  const Estimated reduced = move_and_estimate(beam("6"), Formulation::vm_md);
+  for (std::size_t p = 0; p < 2; ++p) {
+    CHECK(vector_error(reduced.history, full, p == 0 ? "R" : "M") < 5e-4);
+    CHECK(reduced.estimate.probes.at(p) < 5e-4);
+  }
 }
 
 // On fine meshes what beams of second order have of third and higher order weighs as 1/h^2: explicit basis vectors of
