@@ -49,17 +49,12 @@ EventReport pass(const System& system, const Kink& kink, double h, Vec U, Vec V)
   EventReport report{kink.name, kink.what, 0.5 * (kink.before + kink.after)};
   const double before = system.energy(kink.after, U, V).kinetic;
   const petsc::VecHandle rates = copy_of(V);
-  const petsc::VecHandle accelerations =
-      kink.what.empty() ? accelerations_before(system, kink.before, h, U, V) : petsc::VecHandle();
   try {  // where they do not jump, too: what a step leaves of their error would come back in the multipliers
     consistent_velocities(system, kink.after, U, V);
   } catch (const RunError& error) {
     throw RunError(kink.what.empty() ? std::string(error.what()) : kink.name + " (" + kink.what + "): " + error.what());
   }
-  if (kink.what.empty()) {
-    give_way(system, kink.after, h, U, accelerations, V);
-    return report;
-  }
+  if (kink.what.empty()) return report;
   damp_jump(system, kink.after, h, U, rates, V);
   report.work = system.energy(kink.after, U, V).kinetic - before;
   return report;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "at_base.h"
 #include "floe/petsc/factorisation.h"
@@ -76,38 +77,48 @@ petsc::VecHandle equilibrate(const System& system, Mat J) {
 /// rest.
 constexpr double least_exact = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
-/// x with [M C'; C 0] x = b.
-petsc::VecHandle solve_saddle(const System& system, Mat J, Vec b) {
-  const petsc::VecHandle scale = equilibrate(system, J);
-  const petsc::VecHandle right = system.create_vector(), product = system.create_vector();
-  petsc::VecHandle x = system.create_vector();
-  check(VecPointwiseMult(right, b, scale));
-  petsc::MatHandle kept;  // a dense LU overwrites its matrix
-  check(MatDuplicate(J, MAT_COPY_VALUES, kept.out()));
-  const petsc::KspHandle ksp = tangent_solver(J, "motion_start_");
-  std::string raised;
-  try {
-    check(KSPSolve(ksp, right, x));
-  } catch (const petsc::Error& error) {
-    raised = error.what();
-    if (!is_singular(error.code())) throw RunError(raised);
+/// [M C'; C 0] x = b, factored once.
+class Saddle {
+ public:
+  /// @param J  is scaled
+  Saddle(const System& system, Mat J) : system_(system), scale_(equilibrate(system, J)) {
+    check(MatDuplicate(J, MAT_COPY_VALUES, kept_.out()));  // a dense LU overwrites its matrix
+    ksp_ = tangent_solver(J, "motion_start_");
   }
-  if (const petsc::FactorFault fault = petsc::factor_fault(ksp); !fault.text.empty() && !fault.singular)
-    throw RunError(fault.text);
-  if (!raised.empty()) throw RunError(singular_start + undetermined(system, kept));
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  double size = 0, residual = 0, given = 0;
-  check(KSPGetConvergedReason(ksp, &reason));
-  check(VecNorm(x, NORM_INFINITY, &size));
-  check(MatMult(kept, x, product));
-  check(VecAXPY(product, -1, right));
-  check(VecNorm(product, NORM_INFINITY, &residual));
-  check(VecNorm(right, NORM_INFINITY, &given));
-  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * std::max(given, least_exact)))
-    throw RunError(singular_start + undetermined(system, kept));
-  check(VecPointwiseMult(x, x, scale));
-  return x;
-}
+  petsc::VecHandle solve(Vec b) const {
+    const petsc::VecHandle right = system_.create_vector(), product = system_.create_vector();
+    petsc::VecHandle x = system_.create_vector();
+    check(VecPointwiseMult(right, b, scale_));
+    std::string raised;
+    try {
+      check(KSPSolve(ksp_, right, x));
+    } catch (const petsc::Error& error) {
+      raised = error.what();
+      if (!is_singular(error.code())) throw RunError(raised);
+    }
+    if (const petsc::FactorFault fault = petsc::factor_fault(ksp_); !fault.text.empty() && !fault.singular)
+      throw RunError(fault.text);
+    if (!raised.empty()) throw RunError(singular_start + undetermined(system_, kept_));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    double size = 0, residual = 0, given = 0;
+    check(KSPGetConvergedReason(ksp_, &reason));
+    check(VecNorm(x, NORM_INFINITY, &size));
+    check(MatMult(kept_, x, product));
+    check(VecAXPY(product, -1, right));
+    check(VecNorm(product, NORM_INFINITY, &residual));
+    check(VecNorm(right, NORM_INFINITY, &given));
+    if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * std::max(given, least_exact)))
+      throw RunError(singular_start + undetermined(system_, kept_));
+    check(VecPointwiseMult(x, x, scale_));
+    return x;
+  }
+
+ private:
+  const System& system_;
+  petsc::VecHandle scale_;
+  petsc::MatHandle kept_;
+  petsc::KspHandle ksp_;
+};
 
 /// Splits a solution of the saddle: accelerations (multipliers zero) and multipliers (into U).
 void split(const System& system, Vec x, Vec U, Vec A) {
@@ -142,7 +153,7 @@ void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
   check(VecScale(F, -1));
   const petsc::MatHandle J = system.create_tangent();
   system.tangent(t, U, V, A, {0, 0, 1}, J);
-  const petsc::VecHandle x = solve_saddle(system, J, F);
+  const petsc::VecHandle x = Saddle(system, J).solve(F);
   split(system, x, U, A);
 }
 
@@ -159,7 +170,7 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
   if (wrong == 0) return 0;
   const petsc::MatHandle J = system.create_tangent();
   system.tangent(t, U, V, A, {0, 0, 1}, J);
-  const petsc::VecHandle x = solve_saddle(system, J, F);
+  const petsc::VecHandle x = Saddle(system, J).solve(F);
   split(system, x, impulses, A);
   check(VecNorm(V, NORM_2, &size));
   check(VecNorm(A, NORM_2, &change));
@@ -187,43 +198,41 @@ class DampedPart {
  public:
   DampedPart(const System& system, double t, double h, Vec U)
       : system_(system),
-        t_(t),
-        h_(h),
-        U_(U),
         mass_(system.create_tangent()),
-        b_(system.create_vector()),
-        undamped_(system.create_vector()) {
+        damped_(system.create_tangent()),
+        lasting_(system.create_tangent()),
+        J_(system.create_tangent()) {
     system.damped_mass(t, U, 0, mass_);
+    system.damped_mass(t, U, h, damped_);
+    system.damped_mass(t, U, h, lasting_, true);
+    system.damped_mass(t, U, h, J_);
+    saddle_.emplace(system, J_);
   }
   /// w <- J^-1 h C w, J = M + h C with the rows of the joints, whose multipliers come into `held`: 1 - R.
   /// @param lasting  C of System::damped_mass
   void damp(Vec w, Vec held, bool lasting = false) const {
-    const petsc::MatHandle damped = system_.create_tangent();
-    system_.damped_mass(t_, U_, h_, damped, lasting);
-    check(MatMult(damped, w, b_));
-    check(MatMult(mass_, w, undamped_));
-    check(VecAXPY(b_, -1, undamped_));
-    solve(w, held);
+    const petsc::VecHandle b = system_.create_vector(), undamped = system_.create_vector();
+    check(MatMult(lasting ? lasting_ : damped_, w, b));
+    check(MatMult(mass_, w, undamped));
+    check(VecAXPY(b, -1, undamped));
+    solve(b, w, held);
   }
   /// w <- J^-1 M w: R.
   void keep(Vec w, Vec held) const {
-    check(MatMult(mass_, w, b_));
-    solve(w, held);
+    const petsc::VecHandle b = system_.create_vector();
+    check(MatMult(mass_, w, b));
+    solve(b, w, held);
   }
 
  private:
-  void solve(Vec w, Vec held) const {
-    const petsc::MatHandle J = system_.create_tangent();  // the solver scales and overwrites it
-    system_.damped_mass(t_, U_, h_, J);
-    keep_rows(system_, b_, false);
-    split(system_, solve_saddle(system_, J, b_), held, w);
+  void solve(Vec b, Vec w, Vec held) const {
+    keep_rows(system_, b, false);
+    split(system_, saddle_->solve(b), held, w);
   }
 
   const System& system_;
-  double t_, h_;
-  Vec U_;
-  petsc::MatHandle mass_;
-  petsc::VecHandle b_, undamped_;
+  petsc::MatHandle mass_, damped_, lasting_, J_;
+  std::optional<Saddle> saddle_;
 };
 
 }  // namespace

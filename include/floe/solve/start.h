@@ -37,14 +37,15 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
 /// @param h  0: nothing is done
 /// @param impulses  if given, those of the joints that made the jump; they become those of what is left of it
 /// @return  what this takes of the kinetic energy [J], negative where drives carry the bodies along
-/// Collective. Two factorisations, none where nothing damps strains.
+/// Collective. One factorisation, none where nothing damps strains.
 double damp_jump(const System& system, double t, double h, Vec U, Vec before, Vec V, Vec impulses = nullptr);
 
 /// consistent_start, in a new vector; null where accelerations cannot be found (the step that follows says why).
 /// Collective.
 petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V);
 
-/// Where forces jump, adds to the velocities what bodies whose strains are damped give way with within a step h:
+/// Where an event releases a joint, adds to the velocities what bodies whose strains are damped give way with within a
+/// step h:
 ///
 ///   V += h R (1 - R)^2 (A - before),   R = (M + h C)^-1 M   with the rows of the joints,   C at rest
 ///
@@ -53,7 +54,7 @@ petsc::VecHandle accelerations_at(const System& system, double t, Vec U, Vec V);
 /// 1/h that alternate from step to step, and with them the forces of joints.
 /// @param before  accelerations before the jump; null: nothing is done.  @param h  0: nothing is done
 /// @return  what this adds to the kinetic energy [J]
-/// Collective. Four factorisations, none where nothing damps strains.
+/// Collective. Two factorisations, none where nothing damps strains.
 double give_way(const System& system, double t, double h, Vec U, Vec before, Vec V);
 
 /// |C(q, t)|, or of its rate, maximum over all rows. Collective.
