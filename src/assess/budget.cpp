@@ -10,7 +10,7 @@ namespace floe::assess {
 
 namespace {
 
-constexpr std::size_t most_instants = 1000;  // where there is no estimate of the reduction
+constexpr std::size_t most_instants = 1000;  // where there is no estimate of the reduction, or no longer
 
 /// Known to the end of the motion, or so far that the rest does not count.
 bool whole(const ErrorPart& part, const ProbeSeries& own) {
@@ -24,9 +24,14 @@ ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Est
   const std::vector<solve::State>& states = motion.states();
   const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                          A = model.system->create_vector();
-  const std::size_t stride = reduction.t.empty() ? 1 + states.size() / most_instants : 1;
-  for (std::size_t i = states.empty() ? 0 : (states.size() - 1) % stride; i < states.size(); i += stride) {
-    if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
+  const double known = reduction.t.empty() ? -INFINITY : reduction.t.back();
+  const auto rest = static_cast<std::size_t>(
+      std::count_if(states.begin(), states.end(), [&](const solve::State& state) { return state.t > known; }));
+  const std::size_t stride = 1 + rest / most_instants;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const bool wanted = states[i].t <= known ? std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)
+                                             : (states.size() - 1 - i) % stride == 0;
+    if (!wanted) continue;
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
     series.values.push_back(probe_values(model, states[i].t, U, V, A));

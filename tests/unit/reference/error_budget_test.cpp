@@ -182,6 +182,18 @@ TEST_CASE("error budget: parts of a beginning are added by size") {
   CHECK(assess::total_error(own, {&all}, {&opposite}).at(0) == Approx(std::hypot(.3, .1)));
 }
 
+// The equations of the error may end early: the other parts cover the motion all the same.
+TEST_CASE("error budget: probes beyond the end of the estimate of the reduction") {
+  const Reduced one(fill(cantilever, {{"elements", "8"}, {"step", "4e-3"}}));
+  assess::Estimate ended = one.estimate;
+  REQUIRE(ended.t.size() > 20);
+  ended.t.resize(10), ended.errors.resize(10);
+  const assess::ProbeSeries own = assess::probe_series(one.model, one.kept, ended);
+  CHECK(own.t.back() == one.own.t.back());
+  CHECK(own.t.size() > 20);
+  for (std::size_t i = 0; i < 10; ++i) CHECK(own.t[i] == ended.t[i]);
+}
+
 TEST_CASE("error budget: the model contains the mesh where the mesh error covers less") {
   const Reduced one(fill(cantilever, {{"elements", "8"}, {"step", "4e-3"}}));
   assess::ErrorPart mesh = assess::estimate_mesh_error(one.motion(one.scene), one.own, 100);
