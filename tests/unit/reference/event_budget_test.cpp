@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "estimated.h"
@@ -69,7 +73,6 @@ events: {catch: {lock: hinge, $when}}
 probes: {tip: {at: rod.end, quantity: position}, speed: {at: rod.end, quantity: velocity}}
 )yaml";
 
-/// Steps that resolve what its release sets free in the reduced model do not in corotational elements.
 const char* const bent_in_space = R"yaml(
 bodies:
   beam:
@@ -126,7 +129,7 @@ TEST_CASE("error budget: parts and total of a motion whose joints change", "[lon
     for (const std::string& none : {full.none, mesh.none, model.none, step.none}) CHECK(none == "");
     CHECK_THAT(full.by, Catch::StartsWith("formulation nlffr, same mesh"));
     CHECK_FALSE(model.with_reduction);
-    CHECK((model.by.find(", steps 1/") != std::string::npos) == (one.text == bent_in_space));
+    CHECK(model.by.find(", steps 1/") == std::string::npos);  // their steps resolve what the release sets free
     for (std::size_t p = 0; p < total.size(); ++p) {
       const std::string& probe = moved.history.model.probes[p].name;
       if (probe == "held" && one.when != "at: 0.6") continue;  // it jumps at another time in the exact motion
@@ -134,7 +137,7 @@ TEST_CASE("error budget: parts and total of a motion whose joints change", "[lon
       INFO(fmt::format("{} {}: error {:.4g}, total {:.4g} of reduction {:.3g}, model {:.3g}, mesh {:.3g}, step {:.3g}",
                        one.when, probe, error, total[p], reduction.probes[p], model.probes[p], mesh.probes[p],
                        step.probes[p]));
-      CHECK(error > 1e-3);
+      CHECK(error > 5e-4);
       CHECK(total[p] > 0.3 * error);
       CHECK(total[p] < 3 * error);
     }
@@ -182,17 +185,23 @@ probes:
 // Corotational elements do not converge behind the release of a beam that is bent so far, in a quarter of the step
 // either.
 TEST_CASE("error budget: a part ends where a better model stops behind an event") {
-  std::string text = scene_of(bent, "at: 0.6", "16", "4e-3");
-  text.replace(text.find("0.3*smooth"), 3, "0.6");
+  std::string text = scene_of(bent, "at: 0.6", "32", "8e-3");
+  for (const auto& [from, to] : {std::pair{"0.3*smooth", "30*smooth"}, {"1e-2", "1e-5"}, {"end: 0.8", "end: 0.7"}})
+    text.replace(text.find(from), std::string(from).size(), to);
   const Switched moved(text);
   CHECK_THROWS_AS(move(text, Formulation::cfr), solve::MotionStopped);
   const assess::ErrorPart model = assess::estimate_model_error(moved.motion(moved.scene), moved.own, {}, {}, 100);
   CHECK(model.none == "");
   CHECK_THAT(model.by, Catch::StartsWith("formulation cfr, same mesh"));
   CHECK(model.until == Approx(0.6));
-  REQUIRE(model.notes.size() == 3);
-  CHECK_THAT(model.notes[0], Catch::Contains("the simulation stopped at t = 0.6 of 0.8"));
-  CHECK_THAT(model.notes[2], Catch::Contains("root moves later than t = 0.6"));
+  REQUIRE(model.notes.size() >= 3);
+  INFO(fmt::format("{}", fmt::join(model.notes, "\n")));
+  CHECK_THAT(model.notes.front(), Catch::Contains("the simulation stopped at t = 0.6 of 0.7"));
+  const auto has = [&](const char* words) {
+    return std::any_of(model.notes.begin(), model.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  CHECK(has("root moves later than t = 0.6 s"));
 }
 
 // After the motion the joint is open: what it carried before must be that of the motion all the same.
