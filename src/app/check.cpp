@@ -72,7 +72,9 @@ std::string basis_words(const scene::Body& body, const assess::AttachmentModes& 
   return fmt::format(
       "{} modes ({}), {}{}", modes.count,
       modes.of == scene::ModesSpec::Of::joints ? "with its joints fixed" : "under its frame's conditions",
-      attached.count > 0 ? fmt::format("{}{} attachment modes, ", attached.exact ? "" : "up to ", attached.count) : "",
+      attached.count > 0 ? fmt::format("{}{} attachment mode{}, ", attached.exact ? "" : "up to ", attached.count,
+                                       attached.count > 1 ? "s" : "")
+                         : "",
       derivative_words(body.reduction.derivatives, modes.count + attached.count,
                        attached.count == 0 || attached.exact ? "all " : "up to "));
 }
