@@ -12,11 +12,6 @@ petsc::VecHandle copy_of(Vec V) {
   return copy;
 }
 
-/// For give_way; null: it does nothing.
-petsc::VecHandle accelerations_before(const System& system, double t, double h, Vec U, Vec V) {
-  return h > 0 && system.damps_strains() ? accelerations_at(system, t, copy_of(U), V) : petsc::VecHandle();
-}
-
 }  // namespace
 
 EventReport apply_event(const System& system, const Event& event, double t, double h, Vec U, Vec V) {
@@ -24,7 +19,6 @@ EventReport apply_event(const System& system, const Event& event, double t, doub
   if (!event.constraint_switch) return report;
   report.switches = true;
   const double before = system.energy(t, U, V).kinetic;
-  const petsc::VecHandle accelerations = event.closes ? petsc::VecHandle() : accelerations_before(system, t, h, U, V);
   event.constraint_switch->closed = event.closes;
   system.commit_step(U, V, t);
   const petsc::VecHandle impulses = system.create_vector(), rates = copy_of(V);
@@ -33,10 +27,7 @@ EventReport apply_event(const System& system, const Event& event, double t, doub
   } catch (const RunError& error) {
     throw RunError("event " + event.name + " (" + event.what + "): " + error.what());
   }
-  if (!event.closes) {
-    report.damped = -give_way(system, t, h, U, accelerations, V);
-    return report;
-  }
+  if (!event.closes) return report;
   report.lost = before - system.energy(t, U, V).kinetic;
   report.damped = damp_jump(system, t, h, U, rates, V, impulses);
   Eigen::VectorXd local;

@@ -139,18 +139,35 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
   double t = 0;
   Vec U = nullptr, V = nullptr;
   const PassedKinks kinks = pass_kinks(ts, how, context);
-  bool applied = false, stopped = false;
+  bool stopped = false;
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
+  std::vector<std::size_t> due;
   for (std::size_t i = 0; i < context.events.size(); ++i) {
     const Event& event = context.events[i];
-    const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
-    if (!due || context.happened[i] != 0) continue;
-    const EventReport report = apply_event(context.system, event, t, next_step(context), U, V);
-    context.happened[i] = 1;
-    applied = true, stopped = stopped || event.stops;
-    if (how.on_event) how.on_event(report);
+    const bool now = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
+    if (now && context.happened[i] == 0) due.push_back(i);
   }
+  const auto releases = [&](std::size_t i) { return context.events[i].constraint_switch && !context.events[i].closes; };
+  const double h = next_step(context);
+  petsc::VecHandle before;  // what one event releases another one of the same instant may hold: both are one jump
+  if (h > 0 && std::any_of(due.begin(), due.end(), releases) && context.system.damps_strains()) {
+    const petsc::VecHandle other = context.system.create_vector();
+    check(VecCopy(U, other));
+    before = accelerations_at(context.system, t, other, V);
+  }
+  std::vector<EventReport> reports;
+  std::size_t last = 0;  // of those that release a joint
+  for (const std::size_t i : due) {
+    if (releases(i)) last = reports.size();
+    reports.push_back(apply_event(context.system, context.events[i], t, h, U, V));
+    context.happened[i] = 1;
+    stopped = stopped || context.events[i].stops;
+  }
+  if (before) reports[last].damped = -give_way(context.system, t, h, U, before, V);
+  for (const EventReport& report : reports)
+    if (how.on_event) how.on_event(report);
+  const bool applied = !due.empty();
   if (!kinks.any && !applied) return true;
   if (!kinks.velocities && !applied) check(TSGeneralizedAlphaSetForcesJump(ts));
   check(TSRestartStep(ts));

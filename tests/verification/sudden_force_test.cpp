@@ -470,3 +470,33 @@ probes: {tip: {at: beam.end}}
   }
   CHECK(difference < 0.03 * greatest);  // 8 % where velocities jumped with each load
 }
+
+// One joint lets the end of a damped beam go and another takes it over at the same instant: nothing moves. Where
+// velocities jumped with the release by itself, the lock stopped them with an impulse.
+TEST_CASE("a load that one joint hands over to another beside a damped beam") {
+  const History at = move(std::string(R"yaml(
+gravity: [0, -9.81]
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 10}}
+    section: {EA: 2e4, EI: 20, rhoA: 0.5}
+    damping: {stiffness: 2e-2}
+    reduction: {modes: 5, derivatives: all}
+  collar: {rigid: {mass: 0.01, centre: [1, 0], inertia: 1e-6}}
+  other: {rigid: {mass: 0.01, centre: [1, 0], inertia: 1e-6}}
+  shoe: {rigid: {mass: 0.01, centre: [0, 0], inertia: 1e-6}}
+joints:
+  root: {type: revolute, between: [shoe.centre, arm.start]}
+  track: {type: prismatic, between: [ground, shoe.centre], axis: [1, 0]}
+  pin: {type: revolute, between: [arm.end, collar.centre]}
+  pin2: {type: revolute, between: [arm.end, other.centre]}
+  guide: {type: prismatic, between: [ground, collar.centre], axis: [0, 1]}
+  rod: {type: prismatic, between: [ground, other.centre], axis: [1, 0]}
+motion: {end: 0.06, step: 2e-3, start: equilibrium}
+events: {a: {unlock: rod, at: 0.02}, b: {lock: guide, at: 0.02}}
+probes: {mid: {at: arm.middle, quantity: displacement}}
+)yaml"),
+                          Formulation::vm_md);
+  CHECK(std::abs(at["mid.y"].front()) > 1e-3);
+  CHECK(at["mid.y"].back() == Approx(at["mid.y"].front()).epsilon(1e-6));
+}
