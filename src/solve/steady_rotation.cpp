@@ -86,16 +86,21 @@ bool rotates_freely(const RotatingTangent& at, const VectorXd& rotation) {
 MatrixXd open_motions(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& u,
                       const VectorXd& rotation) {
   const bool plane = !rotating.planar_frames.empty();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // one of them along the axis of the rotation
+  if (!plane) {
+    const Eigen::Vector3d &z = rotating.axis.direction, x = z.unitOrthogonal();
+    axes << x, z.cross(x), z;
+  }
   const auto about = [&](const Eigen::Vector3d& point, int axis) {
     RotatingSystem other = rotating;
-    other.axis = {point, Eigen::Vector3d::Unit(axis)};
+    other.axis = {point, axes.col(axis)};
     return rotating_motion(other, 1, u).V;
   };
   std::vector<VectorXd> all;
   const Eigen::Vector3d& point = rotating.axis.point;
   for (int i = 0; i < (plane ? 2 : 3); ++i) {  // along i: the difference of rotations about two parallel axes
     const int axis = plane ? 2 : (i + 1) % 3, across = plane ? 1 - i : (i + 2) % 3;
-    all.push_back(about(point, axis) - about(point + Eigen::Vector3d::Unit(across), axis));
+    all.push_back(about(point, axis) - about(point + axes.col(across), axis));
   }
   for (int i = 0; i < (plane ? 0 : 3); ++i) all.push_back(about(point, i));
   const Sparse size = at.K.cwiseAbs();
@@ -104,7 +109,8 @@ MatrixXd open_motions(const RotatingSystem& rotating, const RotatingTangent& at,
   for (VectorXd& motion : all) {
     if (!rotates_freely(at, motion)) continue;
     const VectorXd force = at.K * motion, most = size * motion.cwiseAbs();
-    if (!(force.cwiseAbs().array() <= 1e-12 * most.array()).all()) continue;
+    const double round_off = 1e-14 * most.maxCoeff();  // K may have entries of round-off alone
+    if (!(force.cwiseAbs().array() <= 1e-12 * most.array() + round_off).all()) continue;
     const double before = std::sqrt(std::max(0.0, motion.dot(at.M * motion)));
     for (int twice = 0; twice < 2; ++twice) {
       if (inertia > 0) motion -= rotation.dot(at.M * motion) / inertia * rotation;

@@ -126,16 +126,20 @@ loads: {tip: {type: force, at: strip.end, axes: body, force: [0, 0, -28]}}
 // Nothing holds it: five rigid motions beside the rotation have no stiffness at rest, one while it rotates. In rotating
 // axes a body that translates, or whose axis of greatest inertia precesses, moves with the speed W.
 TEST_CASE("campbell: a free plate, of more unknowns than are solved by a dense factor") {
-  const std::string plate = R"yaml(
+  const bool oblique = GENERATE(false, true);
+  const std::string plate =
+      std::string(R"yaml(
 bodies:
   p:
-    mesh: {plate: {origin: [-0.5, -0.5, 0], along: [1, 0, 0], across: [0, 1, 0], elements: [8, 8], cells: quadrilaterals}}
+    mesh: {plate: {)yaml") +
+      (oblique ? "origin: [-0.4, -0.5, 0.3], along: [0.8, 0, -0.6]" : "origin: [-0.5, -0.5, 0], along: [1, 0, 0]") +
+      R"yaml(, across: [0, 1, 0], elements: [8, 8], cells: quadrilaterals}}
     section: {thickness: 0.01}
     material: {E: 7e10, nu: 0.3, rho: 2700}
 joints: {}
 )yaml";
   CampbellRequest request = at("0,5", 8);
-  request.about = "0,0,1", request.through = "0,0,0";
+  request.about = oblique ? "3,0,4" : "0,0,1", request.through = "0,0,0";
   const CampbellDiagram full = diagram(plate, Formulation::nlffr, request),
                         reduced = diagram(plate, Formulation::vm_md, request);
   for (const CampbellDiagram* one : {&full, &reduced}) {
