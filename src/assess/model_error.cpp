@@ -11,29 +11,14 @@
 #include "floe/assess/probe_errors.h"
 #include "floe/error.h"
 #include "floe/math/rounded.h"
+#include "thinning.h"
 
 namespace floe::assess {
 
 namespace {
 
-constexpr double min_step_seconds = 2e-6;  // processor time of a step of cfr or nlffr, for each element [s]
-constexpr double large = 0.01;             // error of a probe
-constexpr PetscInt slow_steps = 5;         // at the start, which take longer; looked_at of them show how long one takes
-
-/// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
-struct Thinning {
-  double mesh = 1, step = 1;
-};
-
-std::string words(const Thinning& one) {
-  if (one.mesh == 1) return "same mesh";
-  return one.mesh < 1 ? "elements half as long" : fmt::format("elements {:g} times as long", one.mesh);
-}
-
-std::string step_words(double step) {
-  if (step == 1) return "";
-  return step < 1 ? fmt::format(", steps 1/{:g} as long", 1 / step) : fmt::format(", steps {:g} times as long", step);
-}
+constexpr double large = 0.01;      // error of a probe
+constexpr PetscInt slow_steps = 5;  // at the start, which take longer; looked_at of them show how long one takes
 
 /// The difference to a better model, `formulation`, on the scene's mesh.
 class ModelError {
@@ -49,16 +34,15 @@ class ModelError {
         part_(part),
         time_(motion.comm, allowed),
         allowed_(allowed),
-        took_(time_.of_first(motion.seconds)),
-        scene_(motion.scene) {}
+        needs_(motion, time_.of_first(motion.seconds)) {}
 
   void estimate() {
-    if (scene_.probes.empty()) {
+    if (motion_.scene.probes.empty()) {
       part_.none = "no probe can be compared with " + name_;
       return;
     }
-    if (const double seconds = min_seconds(); min_fraction * seconds / most_times_faster() > allowed_) {
-      part_.none = fmt::format("{} would take more than {:.2g} s (limit {:.2g} s)", name_, seconds, allowed_);
+    if (min_fraction * needs_.least_thinned() > allowed_) {
+      part_.none = fmt::format("{} would take more than {:.2g} s (limit {:.2g} s)", name_, needs_.least(), allowed_);
       return;
     }
     Thinning used;
@@ -97,12 +81,12 @@ class ModelError {
 
   /// A simulation; none: given up because the whole would take too long.
   std::optional<Better> better(Thinning thinning, double end, bool gives_up) {
-    Scene scene = scene_;
+    Scene scene = motion_.scene;
     if (thinning.mesh != 1) scale_meshes(scene, 1 / thinning.mesh);
     const Model model = built(motion_, scene, formulation_);
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
-    const double left = time_.left(), steps = static_cast<double>(motion_.steps);
+    const double left = time_.left();
     const double built_after = time_.spent();
     double begin = 0;
     bool late = false;
@@ -111,9 +95,10 @@ class ModelError {
       const double passed = spent - built_after;
       if (instant.step <= slow_steps) begin = passed;
       if (instant.step <= slow_steps && passed < left) return false;
-      each_ = instant.step <= slow_steps ? passed / static_cast<double>(std::max<PetscInt>(1, instant.step))
-                                         : (passed - begin) / static_cast<double>(instant.step - slow_steps);
-      return (instant.step >= looked_at || passed > 0.2 * left) && each_ * steps > left;
+      needs_.better_step = instant.step <= slow_steps
+                               ? passed / static_cast<double>(std::max<PetscInt>(1, instant.step))
+                               : (passed - begin) / static_cast<double>(instant.step - slow_steps);
+      return (instant.step >= looked_at || passed > 0.2 * left) && needs_.whole() > left;
     };
     ProbeHistory history = simulated(motion_, time_, scene, model, how, own_, enough);
     if (history.enough && !late) return std::nullopt;
@@ -138,11 +123,11 @@ class ModelError {
     const double error = time_.of_first(longer.event_error);
     const std::vector<std::string> notes = part_.notes;
     const auto fits = [&](const Thinning& one) {
-      return can_scale(one.mesh) && time_.of_first(needs(one)) <= 2 * allowed_ - time_.spent();
+      return needs_.can_scale(one.mesh) && time_.of_first(needs_.of(one)) <= 2 * allowed_ - time_.spent();
     };
     while (used.step > 0.25 && can_lengthen(motion_)) {
       used.step /= 2;
-      while (!fits(used) && used.mesh < 4 && !any_shells(scene_)) used.mesh *= 2;
+      while (!fits(used) && used.mesh < 4 && !any_shells(motion_.scene)) used.mesh *= 2;
       if (!fits(used)) break;
       std::optional<Better> one;
       const std::string why = petsc::failed_together(motion_.comm, [&] { one = better(used, motion_.how.end, false); });
@@ -164,9 +149,10 @@ class ModelError {
   void extrapolate(Thinning used, Better& exact) {
     for (const double mesh : {0.5, 2.0}) {
       const Thinning other{mesh, used.step};
-      if (part_.apart || (mesh > 1 && !any_shells(scene_))) continue;
-      if (mesh_.errors.size() < exact.probes.values.size() || !can_scale(mesh)) continue;  // e_mesh is subtracted
-      if (time_.of_first(needs(other)) > time_.left()) continue;
+      if (part_.apart || (mesh > 1 && !any_shells(motion_.scene))) continue;
+      if (mesh_.errors.size() < exact.probes.values.size() || !needs_.can_scale(mesh))
+        continue;  // e_mesh is subtracted
+      if (time_.of_first(needs_.of(other)) > time_.left()) continue;
       std::optional<Better> second;
       const std::vector<std::string> notes = part_.notes;
       const std::string why =
@@ -204,7 +190,7 @@ class ModelError {
   /// limit more.
   bool fits(Thinning other, double end, bool with_more) {
     const double left = with_more ? std::max(time_.left(), allowed_ / 2) : time_.left();
-    return time_.of_first(needs(other)) * end / motion_.how.end <= time_.of_first(left);
+    return time_.of_first(needs_.of(other)) * end / motion_.how.end <= time_.of_first(left);
   }
 
   /// Subtracts from the difference of both models, `exact` less `these.own`, what is of the steps, by steps twice as
@@ -345,44 +331,18 @@ class ModelError {
                     "the reduced model on " + words(thinning), part_);
   }
 
-  bool can_scale(double mesh) const {
-    Scene scaled = scene_;
-    return mesh == 1 || scale_meshes(scaled, 1 / mesh);
-  }
-
-  /// Lower bound for the whole motion on any machine, of each rank: whether a large model is worth building.
-  double min_seconds() const {
-    int ranks = 1;
-    MPI_Comm_size(motion_.comm, &ranks);
-    return min_step_seconds * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline) / ranks;
-  }
-  /// By thinning (affordable()).
-  double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (any_shells(scene_) ? 1 : 4); }
-
-  /// Processor time of both models [s].
-  double needs(Thinning thinning) const {
-    const double fewer = any_shells(scene_) ? thinning.mesh * thinning.mesh : thinning.mesh;
-    const double harder = thinning.step > 1 ? 1.5 : 1;  // long steps take more iterations
-    return harder * (each_ * static_cast<double>(motion_.steps) / fewer + took_) / thinning.step +
-           (thinning.mesh != 1 ? motion_.offline / fewer : 0);
-  }
-
   /// The least thinning that the time allows, or the most with the first part of the motion.
   std::optional<Thinning> affordable() {
-    std::vector<Thinning> all;
-    for (const int mesh : any_shells(scene_) ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
-      for (const int step : {1, 2, 4})
-        if (mesh * step > 1 && can_scale(mesh) && (step == 1 || can_lengthen(motion_)))
-          all.push_back({static_cast<double>(mesh), static_cast<double>(step)});
+    const std::vector<Thinning> all = needs_.all();
     until_ = motion_.how.end;
     for (const Thinning& one : all)
-      if (time_.of_first(needs(one)) <= time_.left()) return one;
+      if (time_.of_first(needs_.of(one)) <= time_.left()) return one;
     const Thinning last = all.empty() ? Thinning{} : all.back();
-    const double share = time_.left() / time_.of_first(needs(last));
+    const double share = time_.left() / time_.of_first(needs_.of(last));
     until_ *= share;
     if (share < min_fraction) {
-      part_.none = fmt::format("{} would take about {:.2g} s (limit {:.2g} s)", name_,
-                               time_.of_first(each_ * static_cast<double>(motion_.steps)), allowed_);
+      part_.none =
+          fmt::format("{} would take about {:.2g} s (limit {:.2g} s)", name_, time_.of_first(needs_.whole()), allowed_);
       return std::nullopt;
     }
     return last;
@@ -396,15 +356,10 @@ class ModelError {
   const ErrorPart& mesh_;
   ErrorPart& part_;
   TimeBudget time_;
-  double allowed_, took_;
-  Scene scene_;
-  double each_ = 0;   // a step of the better model [s]
+  double allowed_;
+  ComparisonTime needs_;
   double until_ = 0;  // [s]
 };
-
-}  // namespace
-
-namespace {
 
 ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, const ProbeSeries& own,
                         const Estimate& reduction, const ErrorPart& mesh, double allowed) {
