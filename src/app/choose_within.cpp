@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "choose.h"
-#include "choose_trials.h"
+#include "choose_reasons.h"
 #include "compare_table.h"
 #include "floe/math/rounded.h"
 #include "impulse_error.h"
@@ -42,10 +42,6 @@ class Search {
 
  private:
   using Selection = assess::Selection;
-
-  static std::string words(const Trial& trial) {
-    return trial.failed.empty() ? math::percent(trial.error) : trial.failed;
-  }
 
   void decide(std::string what, std::string choice, std::string reason) {
     decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
@@ -286,52 +282,6 @@ class Search {
     selection_ = some, order_ = plain, count_ = some.count();
   }
 
-  std::string names(const Selection& selection) const {
-    std::vector<std::string> all;
-    for (std::size_t i = 0; i < selection.taken.size(); ++i)
-      if (selection.taken[i]) all.push_back(candidates_->columns()[i].label);
-    const std::size_t shown = 6;
-    if (all.size() <= shown) return fmt::format("{}", fmt::join(all, "; "));
-    return fmt::format("{}; {} more", fmt::join(all.begin(), all.begin() + shown, "; "), all.size() - shown);
-  }
-
-  void explain() {
-    if (!candidates_->columns().empty()) {
-      const Trial& rigid = trials_.tried(trials_.first_of(order_, 0), step_);
-      if (count_ == 0) {
-        const std::vector<std::string> deformed = candidates_->deformed();
-        decide(
-            "bodies",
-            deformed.empty() ? "rigid" : fmt::format("rigid, but {}, deformed at the start", fmt::join(deformed, ", ")),
-            "error " + words(rigid));
-      } else {
-        decide("bodies", "flexible", "rigid: " + words(rigid));
-        Selection less = trials_.first_of(order_, count_ - 1);
-        less.linear = selection_.linear;
-        decide("basis vectors", fmt::format("{} of {}", count_, candidates_->columns().size()),
-               fmt::format("without the last one, {}: {}", candidates_->columns()[order_[count_ - 1].column].label,
-                           words(trials_.tried(less, step_))));
-        std::vector<std::string> bodies;
-        for (std::size_t i = 0; i < candidates_->columns().size(); ++i) {
-          const std::string& body = candidates_->columns()[i].body;
-          if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
-        }
-        for (const std::string& body : bodies) {
-          Selection of_body = selection_;
-          for (std::size_t i = 0; i < of_body.taken.size(); ++i)
-            if (candidates_->columns()[i].body != body) of_body.taken[i] = 0;
-          decide("  " + body, of_body.count() > 0 ? fmt::format("{} basis vectors", of_body.count()) : "rigid",
-                 names(of_body));
-        }
-        decide("elastic force", selection_.linear ? "linear" : "von Karman",
-               "linear: " + (selection_.linear ? words(trials_.tried(selection_, step_)) : linear_));
-      }
-    }
-    decide("step", fmt::format("{:.4g} s", step_),
-           longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(trials_.tried(selection_, 2 * step_)))
-                         : "a simulation has at least 32 steps");
-  }
-
   /// Residual responses of the selected model's own (reduction.responses), which a scene can name, in place of the
   /// correction vectors of the estimate, which it cannot: up to half as many again, where their error is within what
   /// those leave. @return  the error; none: they are not as good
@@ -369,7 +319,8 @@ class Search {
   }
 
   Chosen finished() {
-    explain();
+    for (Decision& one : reasons({selection_, order_, count_, step_, longer_step(), linear_}, *candidates_, trials_))
+      decisions_.push_back(std::move(one));
     for (const scene::Body& body : scene_.bodies)
       if (body.reduced) decide("  " + body.name, "from a file", "assumed exact: its mesh is not available");
     Chosen chosen;
