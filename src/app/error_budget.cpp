@@ -178,17 +178,12 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
                           const std::vector<std::string>& made_rigid) {
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
+  result.estimate = assess::of_whole(std::move(result.estimate), kept);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
   if (!own.changes.empty() || own.impulsive) result.estimate = assess::estimate_by_full_order(motion, own, allowed);
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;
-  if (!reduction.t.empty()) {  // the equations of the error may end before the motion
-    reduction.until = reduction.t.back();
-    assess::leave_out_quiet(own, reduction);
-    result.estimate.probes = reduction.probes;
-    for (std::string& note : reduction.notes) result.estimate.notes.push_back(std::move(note));
-  }
   ordered_json of_step;
   if (!motion.at_rest) of_step = step_part(motion, kept, own, allowed, step);
   mesh = assess::estimate_mesh_error(motion, own, allowed);

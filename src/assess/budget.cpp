@@ -1,5 +1,8 @@
 #include "floe/assess/budget.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +13,7 @@ namespace floe::assess {
 
 namespace {
 
-constexpr std::size_t most_instants = 1000;  // where there is no estimate of the reduction, or no longer
+constexpr std::size_t most_instants = 1000;  // where there is no estimate of the reduction
 
 /// Known to the end of the motion, or so far that the rest does not count.
 bool whole(const ErrorPart& part, const ProbeSeries& own) {
@@ -19,19 +22,26 @@ bool whole(const ErrorPart& part, const ProbeSeries& own) {
 
 }  // namespace
 
+Estimate of_whole(Estimate reduction, const KeptMotion& motion) {
+  const std::vector<solve::State>& states = motion.states();
+  if (reduction.t.empty() || !reduction.by.empty() || states.empty()) return reduction;
+  const double begin = states.front().t, end = states.back().t;
+  if (reduction.t.back() >= begin + 0.98 * (end - begin)) return reduction;
+  Estimate none;
+  none.none =
+      fmt::format("it ends at t = {:.4g} s of {:.4g} s: {}", reduction.t.back(), end, fmt::join(reduction.notes, "; "));
+  none.seconds = reduction.seconds, none.allowed = reduction.allowed;
+  return none;
+}
+
 ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Estimate& reduction) {
   ProbeSeries series{probe_columns(model), {}, {}, motion.changes(), motion.event_error(), motion.impulsive()};
   const std::vector<solve::State>& states = motion.states();
   const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                          A = model.system->create_vector();
-  const double known = reduction.t.empty() ? -INFINITY : reduction.t.back();
-  const auto rest = static_cast<std::size_t>(
-      std::count_if(states.begin(), states.end(), [&](const solve::State& state) { return state.t > known; }));
-  const std::size_t stride = 1 + rest / most_instants;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const bool wanted = states[i].t <= known ? std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)
-                                             : (states.size() - 1 - i) % stride == 0;
-    if (!wanted) continue;
+  const std::size_t stride = reduction.t.empty() ? 1 + states.size() / most_instants : 1;
+  for (std::size_t i = states.empty() ? 0 : (states.size() - 1) % stride; i < states.size(); i += stride) {
+    if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
     series.values.push_back(probe_values(model, states[i].t, U, V, A));

@@ -16,6 +16,11 @@ struct ProbeSeries {
   bool impulsive = false;                   ///< KeptMotion::impulsive
 };
 
+/// The estimate of the reduction by residuals where it covers the motion. Where the equations of the error end before,
+/// since they diverge, their last values are far off and nothing is known of what comes later: then there is none, with
+/// the reason.
+Estimate of_whole(Estimate reduction, const KeptMotion& motion);
+
 /// Those of the kept states: at the instants of the estimate of the reduction, at all where there is none. Collective
 /// where the system is.
 ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Estimate& reduction);
