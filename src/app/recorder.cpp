@@ -127,8 +127,10 @@ void Recorder::note(const dynamics::EventReport& event) {
   ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
   if (event.speed) j["speed"] = *event.speed;
   if (event.work) j["kinetic_energy_gained"] = *event.work;
+  if (event.released != 0) j["kinetic_energy_released"] = event.released;
   const double lost = event.lost + std::min(event.damped, 0.);  // negative: drives carry what is locked along
-  balance_.pass_event(event.work.value_or(0) + std::max(-lost, 0.), std::max(lost, 0.), std::max(event.damped, 0.));
+  balance_.pass_event(event.work.value_or(0) + std::max(-lost, 0.), std::max(lost, 0.), std::max(event.damped, 0.),
+                      event.released);
   if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost + event.damped, j["impulses"] = event.impulses;
   result_.summary["events"].push_back(j);
 }

@@ -72,8 +72,9 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
   ++count_, t_ = t;
 }
 
-void EnergyBalance::pass_event(double gained, double lost, double damped) {
+void EnergyBalance::pass_event(double gained, double lost, double damped, double released) {
   if (count_ == 0) return;  // the energy of the start is that after it
+  start_ += released;
   work_ += gained - damped, dissipated_ += damped, turnover_ += std::abs(gained), lost_in_impulses_ += lost;
   known_ = 0;
   lowest_ = level_;

@@ -109,7 +109,7 @@ struct PassedKinks {
   bool velocities = false;  ///< whether they jump
 };
 
-/// For damp_jump; 0: not known, since the error of adaptive steps decides.
+/// For damp_jump and give_way; 0: not known, since the error of adaptive steps decides.
 double next_step(const MotionContext& context) { return context.adaptive ? 0 : context.nominal; }
 
 /// Takes the motion over the kinks that are due.
@@ -164,7 +164,7 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
     context.happened[i] = 1;
     stopped = stopped || context.events[i].stops;
   }
-  if (before) reports[last].damped = -give_way(context.system, t, h, U, before, V);
+  if (before) reports[last].released = give_way(context.system, t, h, U, before, V);
   for (const EventReport& report : reports)
     if (how.on_event) how.on_event(report);
   const bool applied = !due.empty();

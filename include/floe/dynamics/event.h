@@ -43,9 +43,10 @@ struct Event {
 /// energy, that the rows allow (perfectly plastic).
 struct EventReport {
   std::string name, what;
-  double t = 0;                       ///< [s]
-  double lost = 0;                    ///< kinetic energy [J]
-  double damped = 0;                  ///< besides: by the damping of strains, within the step that follows [J]
+  double t = 0;         ///< [s]
+  double lost = 0;      ///< kinetic energy [J]
+  double damped = 0;    ///< besides: by the damping of strains, within the step that follows [J]
+  double released = 0;  ///< kinetic energy that strained bodies gain where it opens a joint (give_way) [J]
   std::vector<double> impulses = {};  ///< on the rows that were closed [N s], [N m s]
   std::optional<double> speed = {};   ///< at a stop: of the places against one another [m/s], [rad/s]
   std::optional<double> work = {};    ///< at a kink of drives: what their impulses add to the kinetic energy [J]

@@ -29,8 +29,8 @@ class EnergyBalance {
   void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part);
   /// An event, where the power jumps: W over the step that contains it is h times the power at the step's end, not the
   /// trapezoidal rule. `gained` [J]: what impulses of drives bring there, which belongs to W; `lost`: in impulses of
-  /// joints; `damped`: by strains at the event.
-  void pass_event(double gained, double lost, double damped = 0);
+  /// joints; `damped`: by strains at the event; `released`: what strains give at once, which is no work.
+  void pass_event(double gained, double lost, double damped = 0, double released = 0);
   double work() const { return work_; }          ///< W [J]
   double growth() const { return growth_; }      ///< [J]
   double turnover() const { return turnover_; }  ///< int |P| dt [J]
