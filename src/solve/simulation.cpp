@@ -158,15 +158,23 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
   }
   std::vector<EventReport> reports;
   std::size_t last = 0;  // of those that release a joint
-  for (const std::size_t i : due) {
-    if (releases(i)) last = reports.size();
-    reports.push_back(apply_event(context.system, context.events[i], t, h, U, V));
-    context.happened[i] = 1;
-    stopped = stopped || context.events[i].stops;
+  const auto tell = [&] {
+    for (const EventReport& report : reports)
+      if (how.on_event) how.on_event(report);
+  };
+  try {
+    for (const std::size_t i : due) {
+      if (releases(i)) last = reports.size();
+      reports.push_back(apply_event(context.system, context.events[i], t, h, U, V));
+      context.happened[i] = 1;
+      stopped = stopped || context.events[i].stops;
+    }
+    if (before) reports[last].released = give_way(context.system, t, h, U, before, V);
+  } catch (const RunError&) {  // on all ranks: what has happened before is told
+    tell();
+    throw;
   }
-  if (before) reports[last].released = give_way(context.system, t, h, U, before, V);
-  for (const EventReport& report : reports)
-    if (how.on_event) how.on_event(report);
+  tell();
   const bool applied = !due.empty();
   if (!kinks.any && !applied) return true;
   if (!kinks.velocities && !applied) check(TSGeneralizedAlphaSetForcesJump(ts));
