@@ -197,25 +197,19 @@ namespace {
 class DampedPart {
  public:
   DampedPart(const System& system, double t, double h, Vec U)
-      : system_(system),
-        mass_(system.create_tangent()),
-        damped_(system.create_tangent()),
-        lasting_(system.create_tangent()),
-        J_(system.create_tangent()) {
+      : system_(system), t_(t), h_(h), U_(U), mass_(system.create_tangent()), damped_(system.create_tangent()) {
     system.damped_mass(t, U, 0, mass_);
     system.damped_mass(t, U, h, damped_);
-    system.damped_mass(t, U, h, lasting_, true);
-    system.damped_mass(t, U, h, J_);
+    check(MatDuplicate(damped_, MAT_COPY_VALUES, J_.out()));
     saddle_.emplace(system, J_);
   }
   /// w <- J^-1 h C w, J = M + h C with the rows of the joints, whose multipliers come into `held`: 1 - R.
-  /// @param lasting  C of System::damped_mass
-  void damp(Vec w, Vec held, bool lasting = false) const {
-    const petsc::VecHandle b = system_.create_vector(), undamped = system_.create_vector();
-    check(MatMult(lasting ? lasting_ : damped_, w, b));
-    check(MatMult(mass_, w, undamped));
-    check(VecAXPY(b, -1, undamped));
-    solve(b, w, held);
+  void damp(Vec w, Vec held) const { damp_by(damped_, w, held); }
+  /// The same with the C of what lasts (System::damped_mass) in h C.
+  void damp_lasting(Vec w, Vec held) const {
+    const petsc::MatHandle lasting = system_.create_tangent();
+    system_.damped_mass(t_, U_, h_, lasting, true);
+    damp_by(lasting, w, held);
   }
   /// w <- J^-1 M w: R.
   void keep(Vec w, Vec held) const {
@@ -225,13 +219,22 @@ class DampedPart {
   }
 
  private:
+  void damp_by(Mat damped, Vec w, Vec held) const {
+    const petsc::VecHandle b = system_.create_vector(), undamped = system_.create_vector();
+    check(MatMult(damped, w, b));
+    check(MatMult(mass_, w, undamped));
+    check(VecAXPY(b, -1, undamped));
+    solve(b, w, held);
+  }
   void solve(Vec b, Vec w, Vec held) const {
     keep_rows(system_, b, false);
     split(system_, saddle_->solve(b), held, w);
   }
 
   const System& system_;
-  petsc::MatHandle mass_, damped_, lasting_, J_;
+  double t_, h_;
+  Vec U_;
+  petsc::MatHandle mass_, damped_, J_;
   std::optional<Saddle> saddle_;
 };
 
@@ -266,7 +269,7 @@ double give_way(const System& system, double t, double h, Vec U, Vec before, Vec
   check(VecAXPY(w, -1, before));
   keep_rows(system, w, false);
   damped_part.damp(w, held);
-  damped_part.damp(w, held, true);
+  damped_part.damp_lasting(w, held);
   damped_part.keep(w, held);
   check(VecAXPY(V, h, w));
   return system.energy(t, U, V).kinetic - kinetic;
