@@ -1,5 +1,7 @@
 #include "campbell_estimate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +71,9 @@ std::string find_better(const scene::Scene& given, const scene::Scene& scene, sc
     CampbellDiagram second{{}, diagram.axis, plan_rotation(scene, formulation, comm), {}};
     coordinates = second.model.coordinates;
     if (coordinates <= diagram.model.coordinates)
-      throw InputError("the larger bases have no more coordinates than the model");
+      throw InputError(formulation == scene::Formulation::nlffr
+                           ? "it has no more coordinates than the reduced one"
+                           : "the larger bases have no more coordinates than the model");
     if (coordinates + second.model.multipliers > solve::largest_rotating_system)
       throw InputError("the better model has too many unknowns");
     follow(assembly::rotating_system(given, second.model, second.axis), diagram, at, modes + 2, second.model.U, point);
@@ -94,10 +98,16 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     return;
   }
   CampbellPoint point;
-  if (fits_at_full_order(diagram.model))
-    estimate.full_order =
-        find_better(given, scene, scene::Formulation::nlffr, modes, *at, comm, diagram, point, estimate.coordinates)
-            .empty();
+  if (fits_at_full_order(diagram.model)) {
+    const std::string why =
+        find_better(given, scene, scene::Formulation::nlffr, modes, *at, comm, diagram, point, estimate.coordinates);
+    estimate.full_order = why.empty();
+    if (!why.empty())
+      diagram.model.warnings.push_back(
+          fmt::format("the error of the frequencies is not that to the full-order model: {}; a second reduced model "
+                      "does not see what neither basis has",
+                      why));
+  }
   if (!estimate.full_order) {
     const std::optional<scene::Scene> larger = on_larger_bases(scene);
     estimate.missing = larger ? find_better(given, *larger, scene::Formulation::vm_md, modes, *at, comm, diagram, point,
