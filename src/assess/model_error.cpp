@@ -189,7 +189,7 @@ class ModelError {
   /// Whether the time suffices for both models up to `end`; of steps that were made longer to save it, with half the
   /// limit more.
   bool fits(Thinning other, double end, bool with_more) {
-    const double left = with_more ? std::max(time_.left(), allowed_ / 2) : time_.left();
+    const double left = std::max(0.0, (with_more ? 1.5 : 1) * allowed_ - time_.spent());
     return time_.of_first(needs_.of(other)) * end / motion_.how.end <= time_.of_first(left);
   }
 
