@@ -36,7 +36,7 @@ void check_effectivity(const std::string& name, const std::string& text, double 
     bool condensed = false;  // its force is the gradient of the energy over W, not V' times that of full order
     for (const assembly::ReducedBody& body : reduced.history.model.offline->reduced)
       condensed = condensed || !body.relief.pairs.empty();
-    CHECK(reduced.estimate.unbalanced < (condensed ? 1e-2 : 1e-6));
+    CHECK(reduced.estimate.unbalanced < (condensed ? 2e-3 : 1e-6));  // 1.3e-3 is the greatest here
     for (std::size_t p = 0; p < reduced.estimate.probes.size(); ++p) {
       const std::string& probe = reduced.history.model.probes[p].name;
       const double error = vector_error(reduced.history, full, probe), estimate = reduced.estimate.probes[p];
