@@ -21,13 +21,19 @@ struct Estimate {
   }
 };
 
+constexpr int most_halvings = 46, most_without_gain = 10;
+
 /// Halves until each part is known to `error`, or as short as a jump can be distinguished from; the tolerance does not
-/// shrink with the parts, because only those at corners and jumps are halved often.
-double adaptive(const std::function<double(double)>& f, double from, double to, double error, int halvings) {
-  const Estimate whole(f, from, to);
-  if (whole.error <= error || halvings == 0) return whole.value;
+/// shrink with the parts, because only those at corners and jumps are halved often. Of round-off both halves keep their
+/// share of the error, of a corner or a jump one: parts that were halved so again and again remain as they are.
+double adaptive(const std::function<double(double)>& f, double from, double to, const Estimate& whole, double error,
+                int halvings = most_halvings, int without_gain = most_without_gain) {
+  if (whole.error <= error || halvings == 0 || without_gain == 0) return whole.value;
   const double middle = (from + to) / 2;
-  return adaptive(f, from, middle, error, halvings - 1) + adaptive(f, middle, to, error, halvings - 1);
+  const Estimate first(f, from, middle), second(f, middle, to);
+  if (std::min(first.error, second.error) > whole.error / 100) --without_gain;
+  return adaptive(f, from, middle, first, error, halvings - 1, without_gain) +
+         adaptive(f, middle, to, second, error, halvings - 1, without_gain);
 }
 
 }  // namespace
@@ -43,7 +49,8 @@ struct Integral::Kept {
     if (to < from) return -over(to, from);
     double sum = 0, begin = from;
     const auto add = [&](double end) {
-      sum += adaptive(f, begin, end, 1e-14 * Estimate(f, begin, end).size, 46);
+      const Estimate part(f, begin, end);
+      sum += adaptive(f, begin, end, part, 1e-14 * part.size);
       begin = end;
     };
     for (auto at = std::upper_bound(breaks.begin(), breaks.end(), from); at != breaks.end() && *at < to; ++at) add(*at);
