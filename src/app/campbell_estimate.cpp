@@ -17,7 +17,7 @@ int vectors_of(int modes) { return modes + modes * (modes + 1) / 2; }
 
 void enlarge(scene::ReductionSpec& reduction) {
   int& modes = reduction.modes.count;
-  const int most = modes + (modes + 1) / 2;
+  const int most = 2 * modes;
   ++modes;
   while (modes < most && vectors_of(modes + 1) <= most_vectors) ++modes;
   reduction.modes.given = false;  // a small body may have fewer
@@ -71,9 +71,7 @@ std::string find_better(const scene::Scene& given, const scene::Scene& scene, sc
     CampbellDiagram second{{}, diagram.axis, plan_rotation(scene, formulation, comm), {}};
     coordinates = second.model.coordinates;
     if (coordinates <= diagram.model.coordinates)
-      throw InputError(formulation == scene::Formulation::nlffr
-                           ? "it has no more coordinates than the reduced one"
-                           : "the larger bases have no more coordinates than the model");
+      throw InputError("the larger bases have no more coordinates than the model");
     if (coordinates + second.model.multipliers > solve::largest_rotating_system)
       throw InputError("the better model has too many unknowns");
     follow(assembly::rotating_system(given, second.model, second.axis), diagram, at, modes + 2, second.model.U, point);
@@ -102,7 +100,7 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     const std::string why =
         find_better(given, scene, scene::Formulation::nlffr, modes, *at, comm, diagram, point, estimate.coordinates);
     estimate.full_order = why.empty();
-    if (!why.empty())
+    if (!why.empty() && estimate.coordinates > diagram.model.coordinates)
       diagram.model.warnings.push_back(
           fmt::format("the error of the frequencies is not that to the full-order model: {}; a second reduced model "
                       "does not see what neither basis has",

@@ -3,7 +3,7 @@
 
 namespace floe::app {
 
-/// The scene on larger bases, as vm+md: half as many modes again with all their derivatives, as far as a body has no
+/// The scene on larger bases, as vm+md: twice as many modes with all their derivatives, as far as a body has no
 /// more than `most_vectors` of these (one mode more at least). Nothing where no body has a mesh.
 std::optional<scene::Scene> on_larger_bases(const scene::Scene& scene);
 inline constexpr int most_vectors = 100;
