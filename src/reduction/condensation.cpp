@@ -102,7 +102,7 @@ Columns relief(const fem::Structure& structure, const Basis& basis, const Static
   Columns all;
   for (const petsc::VecHandle& field : basis.without_mass) all.push_back(copy(field));
   const PetscInt dofs = structure.dofs_per_node * structure.mesh.node_count;
-  if (2 * body.coordinates() > dofs) return all;  // what little the basis lacks is as stiff as round-off is large
+  if (10 * body.coordinates() > 9 * dofs) return all;  // what little the basis lacks is as stiff as round-off is large
   if (!may_lock(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return all;
   const std::vector<VectorXd> samples = sampled_deformations(body, follows);
   if (samples.empty()) return all;

@@ -16,7 +16,7 @@ struct Relief {
 };
 
 /// The static displacements W of `condensed`, of bodies of shells and spatial beams with strains of second order, on
-/// fewer basis vectors than half their dofs; of others none.
+/// basis vectors for at most nine tenths of their dofs; of others none.
 ///
 /// @param follows  of each coordinate whether it is a derivative's; if none is, there is no W
 /// Collective. Some 32 solves with the factor of `statics`.
