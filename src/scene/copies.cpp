@@ -29,8 +29,9 @@ class Copies {
  private:
   void resolve(const std::string& name) {
     YAML::Node copy = entries_.at(name);
-    if (!copy.IsMap() || !copy["like"]) return;
-    const YAML::Node like = copy["like"];
+    const YAML::Node& given = copy;  // what is asked of a node that may be changed is in it from then on
+    if (!copy.IsMap() || !given["like"]) return;
+    const YAML::Node like = given["like"];
     const Where where = document_.place_of(like.Mark(), fmt::format("{}.{}.like", section_, name));
     copy.remove("like");
     const std::string original = like.IsScalar() ? like.Scalar() : "";
@@ -48,7 +49,7 @@ class Copies {
     under_way_.erase(name);
     if (original == name || !entries_.at(original).IsMap()) return;
     for (const auto& inherited : entries_.at(original))
-      if (inherited.first.IsScalar() && inherited.first.Scalar() != "like" && !copy[inherited.first.Scalar()])
+      if (inherited.first.IsScalar() && inherited.first.Scalar() != "like" && !given[inherited.first.Scalar()])
         copy.force_insert(inherited.first, inherited.second);
   }
   Document& document_;

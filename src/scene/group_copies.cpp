@@ -101,7 +101,7 @@ class GroupCopy {
         write("joints", key, joint);
     sensors_.joints = copied_["joints"];
     for (const auto& [key, probe] : entries_of(root_, "probes"))
-      if (probe.IsMap() && acts_on(probe)) {
+      if (probe.IsMap() && acts_on(probe) && !replaces_a_copy("probes", key.Scalar())) {
         write("probes", key, probe);
         sensors_.probes.insert_or_assign(key.Scalar(), probe);
         if (motion_.dimension == 2 && probe["relative_to"] && bodies_.count(body_of(probe["relative_to"])))
@@ -152,10 +152,16 @@ class GroupCopy {
 
   std::string renamed(const std::string& name) const { return name_ + "_" + name; }
 
+  /// Whether the scene gives it in place of a copy of another entry.
+  bool replaces_a_copy(const std::string& section, const std::string& name) const {
+    const auto own = own_.find(section);
+    return own != own_.end() && name.starts_with(renamed("")) && own->second.count(name.substr(renamed("").size()));
+  }
+
   /// The copy of an entry; one that the scene gives itself by that name replaces it, unless it is a body.
   void write(const std::string& section, const YAML::Node& key, const YAML::Node& original) {
     const std::string name = key.Scalar();
-    if (section != "bodies" && without_.count(name)) return;
+    if (section != "bodies" && (without_.count(name) || replaces_a_copy(section, name))) return;
     copied_[section].insert(name);
     if (existing_[section].count(renamed(name))) {
       if (const auto own = own_.find(section);

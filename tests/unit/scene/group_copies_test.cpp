@@ -286,6 +286,50 @@ TEST_CASE("copies of groups: written out, with nodes of their own") {
   check_point(named(again.bodies, "two_fore").initial.position, 0.5, 1.55);
 }
 
+TEST_CASE("copies of groups: keys by `like` are copied as those of the entry") {
+  const std::string parts = R"yaml(
+bodies:
+  a: {rigid: {mass: 1, centre: [0, 0], inertia: 1}, initial: {position: [1, 0], angle: 0.3, velocity: [0.1, 0], angular_velocity: 3}}
+  b: {$b}
+joints:
+  p: {type: spring, between: [{body: ground, node: [2, 0]}, b.centre], stiffness: 10}
+  q: {$q, stiffness: 20}
+loads:
+  f: {type: force, at: b.centre, force: [1, 0]}
+  g: {$g, force: [5, "-2*y.y"]}
+motion: {end: 1, step: 1e-2}
+probes:
+  x: {at: b.centre, relative_to: a.centre}
+  y: {$y, quantity: velocity}
+copies: {k: {like: [a, b], position: [0, 5], angle: pi}}
+)yaml";
+  const auto as_written = [](const std::string& text) {
+    YAML::Emitter out;
+    out << scene::load_resolved(parse_scene(text, "scene"));
+    return std::string(out.c_str());
+  };
+  const auto of = [&](const std::string& b, const std::string& q, const std::string& g, const std::string& y) {
+    return as_written(with(with(with(with(parts, "$b", b), "$q", q), "$g", g), "$y", y));
+  };
+  const std::string body =
+      "rigid: {mass: 1, centre: [0, 0], inertia: 1}, "
+      "initial: {position: [1, 0], angle: 0.3, velocity: [0.1, 0], angular_velocity: 3}";
+  const auto lines = [](std::string text) {  // inherited keys are the last ones of an entry
+    std::sort(text.begin(), text.end());
+    return text;
+  };
+  const std::string found = of("like: a", "like: p", "like: f", "like: x"),
+                    wanted = of(body, "type: spring, between: [{body: ground, node: [2, 0]}, b.centre]",
+                                "type: force, at: b.centre", "at: b.centre, relative_to: a.centre");
+  INFO(found << "\n\n" << wanted);
+  CHECK(lines(found) == lines(wanted));
+  const scene::Scene scene = parse_scene(found, "scene");
+  CHECK(scene.joints.size() == 4);
+  CHECK(scene.loads.size() == 4);
+  CHECK(scene.probes.size() == 4);
+  check_point(named(scene.bodies, "k_b").initial.position, -1, 5);
+}
+
 TEST_CASE("copies of groups: faults of values are reported once, at their own lines") {
   CHECK_THAT(fault_of(with(plane, "rhoA: 1", "rhoA: x")),
              Catch::Contains("scene:6:38: bodies.upper.section.rhoA") && !Catch::Contains("two_upper"));
