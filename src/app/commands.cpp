@@ -159,7 +159,7 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
                           result.series.columns[c].unit});
   }
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
-  if (plan.estimate)
+  if (plan.estimate && s.contains("estimate"))
     fmt::print("{}{}", budget_words(s["estimate"], result.end),
                estimate_words(result.estimate, s["estimate"].contains("total")));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);

@@ -118,6 +118,7 @@ void Recorder::continue_files(const output::Checkpoint& from) {
     result_.series.values.emplace_back(row.begin() + 1, row.end());
   }
   file_ = std::make_unique<output::ResultFile>(comm_, folder_->result(), output::ResultFile::Existing::keep);
+  file_->remove("estimate");  // of a motion that ended elsewhere
   for (const auto& [name, count, label] : all_series()) file_->continue_series(name, count, rows, expected_rows());
   file_->publish();
   output::write_summary(comm_, *folder_, result_.summary);

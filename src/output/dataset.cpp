@@ -21,8 +21,16 @@ bool exists(hid_t file, const std::string& name) {
   return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
 }
 
-Hid create(hid_t file, const std::string& name, hid_t type, hid_t space, hid_t how) {
+}  // namespace
+
+void remove_object(hid_t file, const std::string& name) {
   if (exists(file, name)) check_hdf5(H5Ldelete(file, name.c_str(), H5P_DEFAULT));
+}
+
+namespace {
+
+Hid create(hid_t file, const std::string& name, hid_t type, hid_t space, hid_t how) {
+  remove_object(file, name);
   return Hid(H5Dcreate2(file, name.c_str(), type, space, make_groups(), how, H5P_DEFAULT), H5Dclose);
 }
 

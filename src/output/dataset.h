@@ -19,6 +19,9 @@ enum class Open { create, change };
 /// Takes no locks, so that a reader never stops a run.
 Hid open_file(const std::filesystem::path& path, Open how, MPI_Comm comm);
 
+/// What is under `name`, if anything.
+void remove_object(hid_t file, const std::string& name);
+
 /// A dataset of doubles under `name`, groups made on the way; one that was there is replaced.
 Hid create_array(hid_t file, const std::string& name, const Extent& shape);
 

@@ -51,6 +51,11 @@ void ResultFile::reserve_in_draft(std::uint64_t bytes) {
   });
 }
 
+void ResultFile::remove(const std::string& name) {
+  open_draft();
+  petsc::agree(comm_, [&] { writing(path_, [&] { remove_object(draft_, name); }); });
+}
+
 void ResultFile::write_text(const std::string& name, const std::string& first) {
   std::string text = first;  // that of rank 0: HDF5's metadata must not differ between ranks
   int size = static_cast<int>(text.size());

@@ -223,6 +223,25 @@ def refusals(floe, ranks, chance, folder):
     refuse(floe, ranks, folder, again, 1, "cannot write out/", full)
     end(start(floe, ranks, folder, again), folder)
     compare(folder / "whole", folder / "out", True)
+    finished(floe, folder)
+
+
+def finished(floe, folder):
+    """A finished run keeps its results, unless it is continued; then its estimate is one of another motion."""
+    run = lambda *words: subprocess.run([str(floe), "run", *words], cwd=folder, capture_output=True, text=True, timeout=TIME_LIMIT)
+    assert run("scene.yaml", "-o", "out", "--force", "--checkpoint", "20").returncode == 0
+    before = [(folder / "out" / name).read_bytes() for name in ("summary.json", "result.h5", "probes.csv")]
+    done = run("--restart", "out")
+    assert done.returncode == 0 and "nothing is left to simulate" in done.stdout, done.stdout + done.stderr
+    end = json.loads(before[0])["integration"]["reached"]
+    done = run("--restart", "out", "--until", str(end / 2))
+    assert done.returncode == 2 and "expected a later time" in done.stderr, done.stderr
+    assert before == [(folder / "out" / name).read_bytes() for name in ("summary.json", "result.h5", "probes.csv")]
+    with h5py.File(folder / "out/result.h5") as file:
+        assert "estimate" in file
+    assert run("--restart", "out", "--until", str(1.2 * end)).returncode == 0
+    with h5py.File(folder / "out/result.h5") as file:
+        assert "estimate" not in file, "the estimate is still that of the first part"
 
 
 def main():

@@ -44,6 +44,8 @@ class ResultFile {
   /// Saves what rank 0 still holds, as far as it can, and drops an unpublished draft; call finish() first. Collective.
   ~ResultFile();
 
+  /// Removes a dataset, or a group with all that it holds, where it is there. Collective.
+  void remove(const std::string& name);
   /// A text as a scalar string dataset (UTF-8); replaces one of that name. Rank 0's text counts. Collective.
   void write_text(const std::string& name, const std::string& text);
   /// A replicated array, row-major; replaces one of that name. Collective; rank 0 writes.
