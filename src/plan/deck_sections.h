@@ -41,6 +41,9 @@ std::vector<std::string> deck_notices(const mesh::DeckFile& file, const DeckSect
 /// Adds the deck's point masses to the mesh as cells of one node, in parts `mass M` for each value. Collective.
 void add_masses(mesh::DeckFile& file, std::map<int, fem::Section>& parts);
 
+/// As bushings that have viscosity alone. @return  how many, of all ranks. Collective.
+PetscInt omit_springs_without_stiffness(MPI_Comm comm, std::vector<mesh::NodeSpring>& springs);
+
 /// Adds springs between nodes to the mesh as elements of two nodes, in parts `spring` for each set of constants.
 /// Collective.
 void add_springs(mesh::RawMesh& raw, const std::vector<mesh::NodeSpring>& springs, std::map<int, fem::Section>& parts);

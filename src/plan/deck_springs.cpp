@@ -43,6 +43,14 @@ std::vector<SpringKey> keys_of_all_ranks(MPI_Comm comm, const std::vector<mesh::
 
 }  // namespace
 
+PetscInt omit_springs_without_stiffness(MPI_Comm comm, std::vector<mesh::NodeSpring>& springs) {
+  auto omitted = static_cast<PetscInt>(std::erase_if(springs, [](const mesh::NodeSpring& spring) {
+    return std::all_of(spring.stiffness.begin(), spring.stiffness.end(), [](double k) { return k == 0; });
+  }));
+  MPI_Allreduce(MPI_IN_PLACE, &omitted, 1, MPIU_INT, MPI_SUM, comm);
+  return omitted;
+}
+
 void add_springs(mesh::RawMesh& raw, const std::vector<mesh::NodeSpring>& springs, std::map<int, fem::Section>& parts) {
   const std::vector<SpringKey> all = keys_of_all_ranks(raw.comm, springs);
   if (all.empty()) return;

@@ -115,6 +115,9 @@ Source read_file(const Body& body, MPI_Comm comm) {
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
     for (mesh::PointMass& mass : read.deck.masses) mass.offset *= file.scale;
     add_masses(read, deck.parts);
+    if (const PetscInt omitted = omit_springs_without_stiffness(read.mesh.comm, read.deck.springs); omitted > 0)
+      notices.push_back(fmt::format("{} spring{} without stiffness {} omitted", omitted, omitted > 1 ? "s" : "",
+                                    omitted > 1 ? "are" : "is"));
     add_springs(read.mesh, read.deck.springs, deck.parts);
     std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck);
     source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(dependent_nodes),

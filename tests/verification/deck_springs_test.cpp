@@ -51,6 +51,26 @@ TEST_CASE("springs of decks: the deflection of a beam with an elastic joint, in 
     }
 }
 
+// A bush of viscosity alone; it made an element without rows, at which reduced and full-order models crashed.
+TEST_CASE("springs of decks: those without stiffness are omitted, with a note") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "jointed.bdf").string(), damped = (scratch.path / "damped.bdf").string();
+  std::string text = jointed_deck(1);
+  write_text(deck, text);
+  text.insert(text.find("ENDDATA"), "CBUSH,31,10,1,9,,,,0\nPBUSH,10,B,1.E5\nCELAS2,32,0.,1,1,9,1\n");
+  write_text(damped, text);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    const std::string load = "type: force, force: [0, 1e-3, 0]";
+    CHECK(rest(scene_of(damped, "", load), formulation)["tip.y"].back() ==
+          Approx(rest(scene_of(deck, "", load), formulation)["tip.y"].back()).epsilon(1e-10));
+  }
+  const scene::Scene scene = scene::parse_scene(scene_of(damped, "", "type: force, force: [0, 1, 0]"), "scene");
+  const assembly::Model model = assembly::build(scene, Formulation::nlffr, PETSC_COMM_WORLD);
+  CHECK(std::count_if(model.warnings.begin(), model.warnings.end(), [](const std::string& text) {
+          return text.find("2 springs without stiffness are omitted") != std::string::npos;
+        }) == 1);
+}
+
 // A moment M bends the joint by M/k_r: nearly rigid beams.
 TEST_CASE("springs of decks: an elastic joint rotated by 1 rad, corotational") {
   const Scratch scratch;
