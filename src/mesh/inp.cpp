@@ -69,7 +69,7 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Faults faults;
-  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {},
+  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
                      {},     {},      {},   {},    {}, {}, {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
     const InpBlocks deck = inp_blocks(path, faults);

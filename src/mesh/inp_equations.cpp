@@ -15,13 +15,13 @@ void read_transform(const InpBlock& block, InpReading& reading) {
   const std::string kind = type == block.parameters.end() ? "R" : upper(type->second);
   if (kind != "R" && kind != "C" && kind != "S")
     reading.faults.add(block.where, block.name + " expects TYPE=R, C or S, found " + in_quotes(type->second));
-  InpTransform transform{block.where, required(block, "NSET", reading), kind[0], {}, {}};
+  InpTransform transform{block.where, reading.scopes.whole(required(block, "NSET", reading)), kind[0], {}, {}};
   for (const auto& [where, line] : data_lines(block, 1, 1, "two points", reading.faults))
     if (const auto x = numbers(line, where, 1, 6, "two points", reading.faults))
       for (std::size_t i = 0; i < x->size(); ++i)
         (i < 3 ? transform.a : transform.b)[static_cast<Eigen::Index>(i % 3)] = (*x)[i];
   reading.transforms.push_back(transform);
-  ignore(block, "it is read for the directions of *EQUATION alone", reading);
+  ignore(block, "except for the directions of *EQUATION", reading);
 }
 
 // The number of terms, then those: node, direction, factor, at most four on a line.
@@ -48,7 +48,7 @@ void read_equation(const InpBlock& block, InpReading& reading) {
       const auto direction = i + 2 < fields.size() ? number<int>(fields[i + 1]) : std::nullopt;
       const auto factor = i + 2 < fields.size() ? fortran_number(fields[i + 2]) : std::nullopt;
       good = direction && *direction > 0 && factor && std::isfinite(*factor) && open.terms.size() < terms;
-      if (good) open.terms.push_back({std::string(fields[i]), *direction, *factor});
+      if (good) open.terms.push_back({reading.scopes.whole(std::string(fields[i])), *direction, *factor});
     }
     if (!good)
       return reading.faults.add(where, "*EQUATION expects terms of node, direction, factor, found " + in_quotes(line));
@@ -110,7 +110,7 @@ class Equations {
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     for (const auto& [label, x] : positions_of(comm, labels, reading)) positions_.emplace(label, x);
     for (const InpTransform& transform : reading.transforms) {
-      const int set = reading.node_sets.find(without_instance(transform.nodes, reading));
+      const int set = reading.node_sets.find(reading.scopes.own(transform.nodes, InpName::nodes));
       if (set < 0) {
         reading.faults.add(transform.where, "there is no node set " + in_quotes(transform.nodes));
         continue;

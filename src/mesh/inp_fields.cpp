@@ -38,10 +38,4 @@ std::vector<std::pair<Where, std::string_view>> data_lines(const InpBlock& block
   return lines;
 }
 
-std::string without_instance(const std::string& name, const InpReading& reading) {
-  const auto dot = name.find('.');
-  if (dot == std::string::npos || reading.instance.empty()) return name;
-  return upper(name.substr(0, dot)) == upper(reading.instance) ? name.substr(dot + 1) : name;
-}
-
 }  // namespace floe::mesh

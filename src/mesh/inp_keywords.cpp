@@ -189,8 +189,18 @@ void refuse_unknown(const InpBlock& block, Faults& faults) {
 }
 
 // *PART, *ASSEMBLY: one part, and no nodes or elements outside it.
-void check_nesting(const InpBlock& block, int& parts, bool& in_assembly, Faults& faults) {
-  if (block.keyword == "PART" && ++parts > 1) faults.add(block.where, "a second *PART: one is read, for one body");
+void check_nesting(const InpBlock& block, std::optional<std::string>& part, bool& in_assembly, Faults& faults) {
+  const auto value = [&](const char* key) {
+    const auto found = block.parameters.find(key);
+    return found == block.parameters.end() ? "" : found->second;
+  };
+  if (block.keyword == "PART") {
+    if (part) faults.add(block.where, "a second *PART: one is read, for one body");
+    part = value("NAME");
+  }
+  if (block.keyword == "INSTANCE" && part && upper(value("PART")) != upper(*part))
+    faults.add(block.where, "*INSTANCE of part " + in_quotes(value("PART")) + ", which is not defined; the deck has " +
+                                in_quotes(*part));
   if (block.keyword == "ASSEMBLY" || block.keyword == "ENDINSTANCE") in_assembly = true;
   if (block.keyword == "INSTANCE" || block.keyword == "ENDASSEMBLY") in_assembly = false;
   if (in_assembly && (block.keyword == "NODE" || block.keyword == "ELEMENT"))
@@ -227,10 +237,12 @@ void report_ignored(InpReading& reading) {
 
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
   InpShares shares = shares_of(blocks, reading.rank, reading.ranks, reading.faults);
-  int parts = 0;
+  reading.scopes.find(blocks);
+  std::optional<std::string> part;
   bool in_assembly = false;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& block = blocks[i];
+    reading.scopes.enter(block.keyword);
     const auto keyword = keywords().find(block.keyword);
     if (reading.coupling && block.keyword != "KINEMATIC" && block.keyword != "DISTRIBUTING")
       refuse_open_coupling(reading);
@@ -246,7 +258,7 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
       refuse_unknown(block, reading.faults);
       continue;
     }
-    check_nesting(block, parts, in_assembly, reading.faults);
+    check_nesting(block, part, in_assembly, reading.faults);
     check_parameters(block, keyword->second, reading.faults);
     if (block.keyword == "NODE") read_inp_nodes(block, shares, reading);
     if (block.keyword == "ELEMENT") read_inp_elements(block, shares, reading);

@@ -6,7 +6,7 @@
 namespace floe::mesh {
 
 void read_mass(const InpBlock& block, InpReading& reading) {
-  const std::string set = without_instance(required(block, "ELSET", reading), reading);
+  const std::string set = reading.scopes.own(required(block, "ELSET", reading), InpName::elements);
   const auto lines = data_lines(block, 1, 1, "a mass", reading.faults);
   if (const auto type = block.parameters.find("TYPE");
       type != block.parameters.end() && upper(type->second) != "ISOTROPIC")
@@ -27,7 +27,7 @@ void read_nodal_thickness(const InpBlock& block, InpReading& reading) {
     const auto value = fields.size() > 1 ? fortran_number(fields[1]) : std::nullopt;
     if (!value || !(*value > 0) || fields[0].empty())
       return reading.faults.add(where, "expected a node or node set and a thickness, found " + in_quotes(line));
-    reading.thicknesses.push_back({where, std::string(fields[0]), *value});
+    reading.thicknesses.push_back({where, reading.scopes.whole(std::string(fields[0])), *value});
   });
 }
 
@@ -41,14 +41,16 @@ void read_rigid_body(const InpBlock& block, InpReading& reading) {
              pin = block.parameters.contains("PINNSET");
   const auto add = [&](const std::string& nodes, bool rotations = false) {
     if (reference.empty() || nodes.empty()) return;
-    reading.links.push_back({InpLink::rigid, block.where, reference, nodes});
+    reading.links.push_back(
+        {InpLink::rigid, block.where, reading.scopes.whole(reference), reading.scopes.whole(nodes)});
     reading.links.back().free.others = rotations;
+    reading.links.back().set_first = true;
   };
   if (tie) add(required(block, "TIENSET", reading));
   if (pin) add(required(block, "PINNSET", reading), true);
   if (block.parameters.contains("NSET") || !(tie || pin || elements)) add(required(block, "NSET", reading));
   if (elements) {
-    const std::string set = without_instance(required(block, "ELSET", reading), reading);
+    const std::string set = reading.scopes.own(required(block, "ELSET", reading), InpName::elements);
     reading.surfaces.push_back({"elements of " + set, block.where, {{block.where, set, ""}}});
     add(reading.surfaces.back().name);
   }
@@ -65,15 +67,17 @@ void read_mpc(const InpBlock& block, InpReading& reading) {
     if (fields.size() != 3 || (kind != "BEAM" && kind != "TIE" && kind != "PIN"))
       return reading.faults.add(
           where, "*MPC expects BEAM, TIE or PIN, node (or set), reference node; found " + in_quotes(line));
-    reading.links.push_back(
-        {kind == "BEAM" ? InpLink::rigid : InpLink::equal, where, std::string(fields[2]), std::string(fields[1])});
+    reading.links.push_back({kind == "BEAM" ? InpLink::rigid : InpLink::equal, where,
+                             reading.scopes.whole(std::string(fields[2])),
+                             reading.scopes.whole(std::string(fields[1]))});
     reading.links.back().free.others = kind == "PIN";
+    reading.links.back().set_first = true;
   });
 }
 
 void read_coupling(const InpBlock& block, InpReading& reading) {
   const std::string reference = required(block, "REFNODE", reading), nodes = required(block, "SURFACE", reading);
-  reading.coupling = InpLink{InpLink::rigid, block.where, reference, nodes};
+  reading.coupling = InpLink{InpLink::rigid, block.where, reading.scopes.whole(reference), reading.scopes.whole(nodes)};
 }
 
 void read_kinematic(const InpBlock& block, InpReading& reading) {
@@ -115,7 +119,8 @@ void read_tie(const InpBlock& block, InpReading& reading) {
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
     if (fields.size() < 2) return reading.faults.add(where, "*TIE expects two surfaces, found " + in_quotes(line));
-    reading.ties.push_back({where, std::string(fields[0]), std::string(fields[1]), free});
+    reading.ties.push_back(
+        {where, reading.scopes.whole(std::string(fields[0])), reading.scopes.whole(std::string(fields[1])), free});
   });
 }
 

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "inp_reading.h"
 #include "text.h"
@@ -78,6 +79,8 @@ void read_material(const InpBlock& block, InpReading& reading) {
 void read_elastic(const InpBlock& block, InpReading& reading) {
   Material* material = current(block, reading);
   if (!material) return;
+  if (!material->constants.empty())
+    reading.faults.add(block.where, "material " + in_quotes(material->name) + " has a second *ELASTIC");
   const auto found = block.parameters.find("TYPE");
   const std::string type = found == block.parameters.end() ? "ISO" : folded(found->second);
   std::optional<std::vector<double>> constants;
@@ -108,7 +111,11 @@ void read_density(const InpBlock& block, InpReading& reading) {
 
 void read_orientation(const InpBlock& block, InpReading& reading) {
   auto& faults = reading.faults;
-  Orientation orientation{required(block, "NAME", reading), {}, {}, 0, 0};
+  Orientation orientation{reading.scopes.own(required(block, "NAME", reading), InpName::orientation), {}, {}, 0, 0};
+  const auto is_it = [&](const auto& other) { return upper(other.name) == upper(orientation.name); };
+  if (std::any_of(reading.deck.orientations.begin(), reading.deck.orientations.end(), is_it) ||
+      std::any_of(reading.cylinders.begin(), reading.cylinders.end(), is_it))
+    faults.add(block.where, "orientation " + in_quotes(orientation.name) + " is defined a second time");
   const auto system = block.parameters.find("SYSTEM"), definition = block.parameters.find("DEFINITION");
   const std::string kind = system == block.parameters.end() ? "RECTANGULAR" : upper(system->second);
   if (kind != "RECTANGULAR" && kind != "CYLINDRICAL")

@@ -140,7 +140,9 @@ InpShares shares_of(const std::vector<InpBlock>& blocks, int rank, int ranks, Fa
 
 void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& reading) {
   const auto named = block.parameters.find("NSET");
-  const int set = named == block.parameters.end() ? -1 : reading.node_sets.named(named->second, block.where);
+  const int set = named == block.parameters.end()
+                      ? -1
+                      : reading.node_sets.named(reading.scopes.own(named->second, InpName::nodes), block.where);
   const auto system = block.parameters.find("SYSTEM");
   const std::string axes = system == block.parameters.end() ? "R" : upper(system->second);
   if (axes != "R" && axes != "C")
@@ -191,7 +193,9 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
     reading.notices.push_back(reading.faults.text_of(block.where) + ": elements of type " + type + " are read as " +
                               twin->second);
   const auto named = block.parameters.find("ELSET");
-  const int set = named == block.parameters.end() ? -1 : reading.element_sets.named(named->second, block.where);
+  const int set = named == block.parameters.end()
+                      ? -1
+                      : reading.element_sets.named(reading.scopes.own(named->second, InpName::elements), block.where);
   if (!nodes) return;
   const long long lines = lines_of_record(block, nodes), records = block.lines() / lines;
   if (other && left_out)

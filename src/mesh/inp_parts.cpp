@@ -68,7 +68,8 @@ std::vector<int> parts_without_section(MPI_Comm comm, InpReading& reading) {
 
 /// Sets that the scene gives a section, after those of the deck.
 void add_requested(InpReading& reading) {
-  for (const auto& name : reading.request.parts) {
+  for (const auto& given : reading.request.parts) {
+    const std::string name = reading.scopes.own(given, InpName::elements);
     const bool own = std::any_of(reading.uses.begin(), reading.uses.end(), [&](const InpUse& use) {
       return use.kind != InpUse::mass && use.kind != InpUse::spring && upper(use.set) == upper(name);
     });

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
+#include <set>
 
 #include "file_mesh.h"
 #include "floe/mesh/deck.h"
@@ -28,6 +29,21 @@ struct InpSets {
   int find(const std::string& name) const;          // -1: none
   std::vector<int> with_members(int set) const;     // itself and all that it holds
   std::vector<std::string> names() const;
+};
+
+/// What has a name.
+enum class InpName { nodes, elements, surface, orientation };
+
+/// Names of a *PART are others than those of the *ASSEMBLY, where they are INSTANCE.NAME (Abaqus). Those that both have
+/// are kept as INSTANCE.NAME; all others may be named from both without the instance.
+struct InpScopes {
+  std::string instance = {};                             // "" where there is none
+  std::set<std::pair<InpName, std::string>> twice = {};  // in upper case
+  bool in_part = false;                                  // at the block at work
+  void find(const std::vector<InpBlock>& blocks);
+  bool enter(const std::string& keyword);                        // in_part from this keyword on
+  std::string own(const std::string& name, InpName kind) const;  // under which it is kept
+  std::string whole(const std::string& name) const;  // of a node set or surface, for own() outside of the part, too
 };
 
 struct InpElement {
@@ -64,9 +80,10 @@ struct InpSpring {
 struct InpLink {
   enum Kind { rigid, mean, equal } kind = rigid;  // equal: of nodes at one point
   Where where;
-  std::string reference;  // a node, or a set of one
-  std::string nodes;      // a node, a set or a surface
-  RigidLink free = {};    // the rotations that it leaves free
+  std::string reference;   // a node, or a set of one
+  std::string nodes;       // a node, a set or a surface
+  RigidLink free = {};     // the rotations that it leaves free
+  bool set_first = false;  // where a node set and a surface have the name
 };
 
 /// *TRANSFORM: directions of nodes. R: a along x, b in the plane of x and y; C: a and b on the axis.
@@ -165,7 +182,8 @@ struct InpReading {
   Deck deck;
   std::vector<InpIgnored> ignored;  // become notices before these
   std::vector<std::string> notices;
-  std::string instance;                     // of Abaqus; "" where there is none
+  std::string instance;  // of Abaqus; "" where there is none, or not yet
+  InpScopes scopes;
   std::optional<Eigen::Isometry3d> motion;  // of the instance at work
   std::optional<InpLink> coupling;          // that waits for its *KINEMATIC or *DISTRIBUTING
   std::vector<std::pair<std::string, Where>> materials_used, orientations_used;
@@ -272,8 +290,5 @@ std::optional<std::vector<double>> numbers(std::string_view line, Where where, s
 /// The data lines, each with its place; a fault where there are fewer than least or more than most.
 std::vector<std::pair<Where, std::string_view>> data_lines(const InpBlock& block, std::size_t least, std::size_t most,
                                                            const std::string& what, Faults& faults);
-
-/// A set's name without the name of the deck's one instance before it.
-std::string without_instance(const std::string& name, const InpReading& reading);
 
 }  // namespace floe::mesh

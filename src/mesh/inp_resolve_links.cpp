@@ -13,7 +13,7 @@ namespace {
 // The node that a text names: its number, or the only one of a set. Collective.
 std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where where, InpReading& reading) {
   if (const auto label = number<long long>(text)) return label;
-  const int set = reading.node_sets.find(without_instance(text, reading));
+  const int set = reading.node_sets.find(reading.scopes.own(text, InpName::nodes));
   if (set < 0) {
     reading.faults.add(where, "there is no node set " + in_quotes(text) + suggestion(text, reading.node_sets.names()));
     return std::nullopt;
@@ -27,11 +27,13 @@ std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where 
   return std::nullopt;
 }
 
-/// The set of nodes that a text names: a surface before a node set; -1: none, a fault.
-int set_named(const std::string& text, Where where, InpReading& reading) {
-  const std::string name = without_instance(text, reading);
+/// The set of nodes that a text names: a surface before a node set, unless `set_first`; -1: none, a fault.
+int set_named(const std::string& text, Where where, InpReading& reading, bool set_first = false) {
+  const std::string name = reading.scopes.own(text, InpName::nodes),
+                    of_surface = reading.scopes.own(text, InpName::surface);
+  if (const int set = reading.node_sets.find(name); set_first && set >= 0) return set;
   for (const auto& surface : reading.surfaces) {
-    if (upper(surface.name) != upper(name)) continue;
+    if (upper(surface.name) != upper(of_surface)) continue;
     if (surface.set < 0) reading.faults.add(where, surface.name + " has no nodes of beams or shells");
     return surface.set;
   }
@@ -182,7 +184,8 @@ void resolve_links(MPI_Comm comm, InpReading& reading) {
   for (const auto& link : reading.links) {
     const auto reference = one_node(comm, link.reference, link.where, reading);
     const auto node = number<long long>(link.nodes);
-    const int set = node && link.kind != InpLink::mean ? -1 : set_named(link.nodes, link.where, reading);
+    const int set =
+        node && link.kind != InpLink::mean ? -1 : set_named(link.nodes, link.where, reading, link.set_first);
     if (!reference || (set < 0 && (!node || link.kind == InpLink::mean))) continue;
     if (link.kind == InpLink::mean) {
       means.push_back({&link, *reference, set});

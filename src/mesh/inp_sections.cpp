@@ -23,7 +23,7 @@ double number_of(const InpBlock& block, const std::string& key, InpReading& read
 }
 
 std::string set_of(const InpBlock& block, InpUse::Kind kind, InpReading& reading) {
-  std::string set = without_instance(required(block, "ELSET", reading), reading);
+  std::string set = reading.scopes.own(required(block, "ELSET", reading), InpName::elements);
   if (!set.empty()) reading.uses.push_back({kind, set, block.where, 0});
   return set;
 }
@@ -46,7 +46,7 @@ std::optional<Ply> ply(std::string_view line, Where where, InpReading& reading) 
   if (const auto angle = fortran_number(fields[3]))
     result.angle = *angle;
   else
-    result.orientation = std::string(fields[3]);
+    result.orientation = reading.scopes.own(std::string(fields[3]), InpName::orientation);
   reading.materials_used.emplace_back(result.material, where);
   use_orientation(result.orientation, where, reading);
   return result;
@@ -105,7 +105,7 @@ void add_section(const ShellSection& section, InpReading& reading) {
 void read_shell_section(const InpBlock& block, InpReading& reading) {
   ShellSection section{set_of(block, InpUse::shell, reading),
                        next_part(reading.deck),
-                       value_of(block, "ORIENTATION"),
+                       reading.scopes.own(value_of(block, "ORIENTATION"), InpName::orientation),
                        number_of(block, "OFFSET", reading),
                        {}};
   use_orientation(section.orientation, block.where, reading);
@@ -168,8 +168,11 @@ void read_shell_general_section(const InpBlock& block, InpReading& reading) {
       reading.faults.add(block.where, block.name + " with a material is read without DENSITY=: expected *DENSITY");
     return read_shell_section(block, reading);
   }
-  ShellSection section{
-      set_of(block, InpUse::shell, reading), next_part(reading.deck), value_of(block, "ORIENTATION"), 0, {}};
+  ShellSection section{set_of(block, InpUse::shell, reading),
+                       next_part(reading.deck),
+                       reading.scopes.own(value_of(block, "ORIENTATION"), InpName::orientation),
+                       0,
+                       {}};
   use_orientation(section.orientation, block.where, reading);
   if (block.parameters.contains("OFFSET"))
     reading.faults.add(block.where, block.name + " by its stiffness has no thickness, and is read without OFFSET=");

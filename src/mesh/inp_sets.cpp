@@ -59,7 +59,7 @@ void read_ranges(const InpBlock& block, InpSet& set, Faults& faults) {
 }
 
 // Numbers and names of other sets; each rank takes its share of the lines.
-void read_members(const InpBlock& block, InpSet& set, std::size_t most_fields, InpReading& reading) {
+void read_members(const InpBlock& block, InpSet& set, InpName kind, std::size_t most_fields, InpReading& reading) {
   const long long lines = block.lines(), first = reading.rank * lines / reading.ranks;
   std::vector<std::string_view> fields;
   block.each_line(first, (reading.rank + 1) * lines / reading.ranks - first, [&](Where where, std::string_view line) {
@@ -71,7 +71,7 @@ void read_members(const InpBlock& block, InpSet& set, std::size_t most_fields, I
       else if (field.empty() || field.front() == '-' || (field.front() >= '0' && field.front() <= '9'))
         reading.faults.add(where, "expected numbers or names of sets, found " + in_quotes(field));
       else
-        set.members.push_back(without_instance(std::string(field), reading));
+        set.members.push_back(reading.scopes.own(std::string(field), kind));
     }
   });
 }
@@ -90,11 +90,12 @@ void read_set(const InpBlock& block, InpReading& reading) {
   const std::string name = required(block, nodes ? "NSET" : "ELSET", reading);
   if (name.empty() || !of_the_instance(block, reading)) return;
   auto& sets = nodes ? reading.node_sets : reading.element_sets;
-  auto& set = sets.sets[sets.named(name, block.where)];
+  const InpName kind = nodes ? InpName::nodes : InpName::elements;
+  auto& set = sets.sets[sets.named(reading.scopes.own(name, kind), block.where)];
   if (has(block, "GENERATE"))
     read_ranges(block, set, reading.faults);
   else
-    read_members(block, set, std::numeric_limits<std::size_t>::max(), reading);
+    read_members(block, set, kind, std::numeric_limits<std::size_t>::max(), reading);
 }
 
 void read_surface(const InpBlock& block, InpReading& reading) {
@@ -102,9 +103,11 @@ void read_surface(const InpBlock& block, InpReading& reading) {
   if (type == block.parameters.end() || upper(type->second) == "ELEMENT") return read_element_surface(block, reading);
   if (upper(type->second) != "NODE" || has(block, "COMBINE"))
     return ignore(block, "only surfaces of nodes and of elements are read", reading);
-  const std::string name = required(block, "NAME", reading);
-  if (!name.empty())
-    read_members(block, reading.node_sets.sets[reading.node_sets.named(name, block.where)], 1, reading);
+  const std::string name = reading.scopes.own(required(block, "NAME", reading), InpName::surface);
+  if (name.empty()) return;
+  InpSurface surface{name, block.where, {}, reading.node_sets.named(name + " (surface)", block.where)};
+  read_members(block, reading.node_sets.sets[surface.set], InpName::nodes, 1, reading);
+  reading.surfaces.push_back(std::move(surface));
 }
 
 void agree_members(MPI_Comm comm, InpReading& reading) {

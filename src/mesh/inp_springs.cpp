@@ -12,7 +12,7 @@ namespace floe::mesh {
 
 // A line with the directions of SPRING2, which is empty or left out for SPRINGA, and a stiffness.
 void read_spring(const InpBlock& block, InpReading& reading) {
-  const std::string set = without_instance(required(block, "ELSET", reading), reading);
+  const std::string set = reading.scopes.own(required(block, "ELSET", reading), InpName::elements);
   const auto lines =
       data_lines(block, 1, 2, "perhaps two directions, and a stiffness on the next line", reading.faults);
   if (set.empty() || lines.empty()) return;

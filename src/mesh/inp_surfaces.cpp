@@ -26,18 +26,21 @@ std::vector<int> nodes_of_face(const InpElement& element, const std::string& fac
 void read_element_surface(const InpBlock& block, InpReading& reading) {
   if (block.parameters.contains("COMBINE"))
     return ignore(block, "only surfaces of nodes and of elements are read", reading);
-  InpSurface surface{required(block, "NAME", reading), block.where, {}};
+  InpSurface surface{reading.scopes.own(required(block, "NAME", reading), InpName::surface), block.where, {}};
   std::vector<std::string_view> fields;
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
     if (fields.empty() || fields[0].empty()) return;  // all free faces, of contact
-    surface.items.push_back({where, without_instance(std::string(fields[0]), reading),
+    surface.items.push_back({where, reading.scopes.own(std::string(fields[0]), InpName::elements),
                              fields.size() > 1 ? upper(fields[1]) : std::string()});
   });
   if (!surface.name.empty()) reading.surfaces.push_back(std::move(surface));
 }
 
 void resolve_surfaces(MPI_Comm comm, InpReading& reading) {
+  for (const InpSurface& surface : reading.surfaces)  // of nodes
+    if (surface.set >= 0 && reading.node_sets.find(surface.name) < 0)
+      reading.node_sets.sets[surface.set].name = surface.name;
   std::vector<InpElementList> lists;
   std::vector<std::pair<std::size_t, std::string>> origins;  // surface and face of each list
   for (std::size_t s = 0; s < reading.surfaces.size(); ++s) {

@@ -25,7 +25,7 @@ std::vector<Given> given_thicknesses(MPI_Comm comm, InpReading& reading) {
       if (reading.rank == 0) mine.push_back({*label, line, one.value});
       continue;
     }
-    const int set = reading.node_sets.find(without_instance(one.nodes, reading));
+    const int set = reading.node_sets.find(reading.scopes.own(one.nodes, InpName::nodes));
     if (set < 0) {
       reading.faults.add(
           one.where, "there is no node set " + in_quotes(one.nodes) + suggestion(one.nodes, reading.node_sets.names()));

@@ -35,7 +35,7 @@ std::unordered_map<long long, NasBuild::Rotations> NasBuild::rotations_of_grids(
     if (mass.component > 3) other(mass.grid, fmt::format("{} {}", mass.card, mass.id));
   std::unordered_map<long long, int> links;
   for (const NasLink& link : model_.links) {
-    other(link.reference, "another link, whose independent grid it is,"), all[link.reference].linked = true;
+    other(link.reference, "another link, whose independent grid it is"), all[link.reference].linked = true;
     for (const long long grid : link.nodes)
       if (++links[grid] > 1) other(grid, "another link"), all[grid].linked = true;
   }

@@ -195,9 +195,9 @@ std::vector<PetscInt> nodes_of(const Body& body, const RawMesh& mesh, const Plac
   const auto found = std::find(mesh.places.begin(), mesh.places.end(), place.name);
   if (found != mesh.places.end()) return mesh.place_nodes[found - mesh.places.begin()];
   const std::string near = math::nearest(place.name, mesh.places);
-  throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(), body.name,
+  throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}coordinates{}", place.where.text(), body.name,
                                place.name,
-                               mesh.places.empty() ? "" : fmt::format("one of {} ", fmt::join(mesh.places, ", ")),
+                               mesh.places.empty() ? "" : fmt::format("one of {} or ", fmt::join(mesh.places, ", ")),
                                near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }
 

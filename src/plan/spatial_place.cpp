@@ -207,9 +207,9 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure, const me
       std::vector<std::string> names;
       for (const auto& entry : places) names.push_back(entry.first);
       const std::string near = math::nearest(place.name, names);
-      throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(),
+      throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}coordinates{}", place.where.text(),
                                    place.body, place.name,
-                                   names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),
+                                   names.empty() ? "" : fmt::format("one of {} or ", fmt::join(names, ", ")),
                                    near.empty() ? "" : "; did you mean \"" + near + "\"?"));
     }
     if (named->second.nodes.empty())

@@ -152,3 +152,12 @@ TEST_CASE("at most twenty faults are told") {
   CHECK_THAT(said(text),
              Contains("bad.inp:33: keyword") && !Contains("bad.inp:34:") && Contains("the first 20 are listed"));
 }
+
+TEST_CASE("orientations and elasticities of a deck are given once") {
+  const std::string orientation = "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n";
+  CHECK(said(nodes + elements + section + orientation + orientation) ==
+        "bad.inp:16: orientation 'O' is defined a second time");
+  CHECK(said(nodes + elements +
+             "*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*ELASTIC\n2, 0\n*SHELL SECTION, ELSET=E, "
+             "MATERIAL=M\n1\n") == "bad.inp:12: material 'M' has a second *ELASTIC");
+}

@@ -100,6 +100,47 @@ TEST_CASE("one part and one instance of Abaqus are looked through") {
   CHECK(testing::labels_at(raw, "again") == std::vector<long long>{3});
 }
 
+TEST_CASE("names of a part are others than those of the assembly") {
+  const std::string part =
+      "*PART, NAME=P\n*NODE, NSET=X\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=S4, ELSET=X\n1, 1, 2, 3, 4\n"
+      "*ELEMENT, TYPE=B31, ELSET=B\n2, 1, 2\n*ORIENTATION, NAME=X\n0, 1, 0, -1, 0, 0\n"
+      "*SHELL SECTION, ELSET=X, MATERIAL=M, ORIENTATION=X\n1\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT\n0.1, 0.2\n0, 1, 0\n*SURFACE, NAME=X, TYPE=NODE\n1\n2\n"
+      "*NSET, NSET=of_part\nX\n*END PART\n";
+  const std::string assembly =
+      "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*NSET, NSET=X, INSTANCE=I\n3, 4\n"
+      "*ELSET, ELSET=X, INSTANCE=I\n2\n*NSET, NSET=both\nX, I.X\n*NSET, NSET=again\nI.of_part\n"
+      "*RIGID BODY, REF NODE=4, TIE NSET=X\n*END ASSEMBLY\n*ORIENTATION, NAME=X\n1, 0, 0, 0, 1, 0\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*DENSITY\n1\n";
+  const auto file = read(testing::written("scopes.inp", part + assembly));
+  const auto& raw = file.mesh;
+  CHECK(testing::labels_at(raw, "X") == std::vector<long long>{3, 4});
+  CHECK(testing::labels_at(raw, "I.X") == std::vector<long long>{1, 2, 3, 4});
+  CHECK(testing::labels_at(raw, "X (surface)") == std::vector<long long>{1, 2});
+  CHECK(testing::labels_at(raw, "both") == std::vector<long long>{1, 2, 3, 4});
+  CHECK(testing::labels_at(raw, "again") == std::vector<long long>{1, 2, 3, 4});
+  CHECK(raw.parts == std::vector<std::string>{"I.X", "B"});
+  REQUIRE(file.deck.links.size() == 1);
+  CHECK(testing::of_all_ranks(file.deck.links[0].nodes).size() == 1);
+  CHECK(file.deck.shell_sections.at(0).orientation == "I.X");
+  CHECK_THAT(testing::fault_of([&] {
+               const std::string other = assembly;
+               read(testing::written("scopes.inp", "*PART, NAME=Q\n" + part.substr(part.find('\n') + 1) + other));
+             }),
+             Contains("*INSTANCE of part 'P', which is not defined; the deck has 'Q'"));
+}
+
+TEST_CASE("a surface is another set than the node set of its name") {
+  const std::string sets =
+      "*NSET, NSET=edge\n2, 3\n*SURFACE, NAME=EDGE, TYPE=NODE\n1\n4\n*SURFACE, NAME=alone, TYPE=NODE\nedge\n"
+      "*NODE\n9, 2, 0\n*RIGID BODY, REF NODE=9, NSET=edge\n";
+  const auto file = read(testing::written("surface.inp", square(sets)));
+  CHECK(testing::labels_at(file.mesh, "edge") == std::vector<long long>{2, 3});
+  CHECK(testing::labels_at(file.mesh, "EDGE (surface)") == std::vector<long long>{1, 4});
+  CHECK(testing::labels_at(file.mesh, "alone") == std::vector<long long>{2, 3});
+  REQUIRE(file.deck.links.size() == 1);
+}
+
 TEST_CASE("an instance moves its part, its orientations and the directions of its beams") {
   const std::string part =
       "*ELEMENT, TYPE=B31, ELSET=B\n2, 1, 2\n*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT\n0.1, 0.2\n"
