@@ -113,6 +113,20 @@ void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, con
                                          (link.free.others ? ", or *RIGID BODY with PIN NSET" : ""));
 }
 
+/// Whether shells have one of the nodes. Collective.
+bool has_shells(MPI_Comm comm, const std::vector<Labelled>& nodes, const InpReading& reading) {
+  const auto among = [&](long long label) {
+    const auto found = std::lower_bound(nodes.begin(), nodes.end(), label,
+                                        [](const Labelled& node, long long sought) { return node.label < sought; });
+    return found != nodes.end() && found->label == label;
+  };
+  int any = std::any_of(reading.mesh.cells.begin(), reading.mesh.cells.end(), [&](const auto& cell) {
+    return is_shell(cell.kind) && std::any_of(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), among);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, comm);
+  return any != 0;
+}
+
 /// A mean of nodes cannot carry what else its reference node has: it becomes a notice where that is nothing.
 /// Collective.
 void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int set, InpReading& reading) {
@@ -133,6 +147,10 @@ void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int
                               "*COUPLING with *DISTRIBUTING: " + node +
                                   " has an element, a mass or a link, which a mean of nodes does not carry; "
                                   "expected *KINEMATIC");
+  if (!has_shells(comm, nodes, reading)) {  // it rotates by displacements, as RBE3; places on shells do anyway
+    auto& mean = reading.mesh.places[set];
+    mean.weighted = true, mean.weights.assign(mean.labels.size(), 1);
+  }
   reading.notices.push_back(
       reading.faults.text_of(link.where) + ": *COUPLING with *DISTRIBUTING is ignored: " + node + " has no element; " +
       (apart > near_enough * size_of(nodes)

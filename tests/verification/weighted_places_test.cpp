@@ -105,3 +105,29 @@ probes: {turn: {at: b.RBE3_70, quantity: rotation}, mean: {at: b.RBE3_70, quanti
     CHECK(std::abs(at["mean.x"].back()) + std::abs(at["mean.y"].back()) + std::abs(at["mean.z"].back()) < 1e-6);
   }
 }
+
+// A moment on two parallel cantilevers at a distance 2 a is a pair of forces M / (2 a): w = M / (2 a) L^3 / (3 EI).
+TEST_CASE("*DISTRIBUTING: moments on nodes of beams are forces") {
+  const Scratch scratch;
+  const std::string deck = (scratch.path / "pair.inp").string();
+  write_text(deck,
+             "*NODE\n1, 0, -0.1\n2, 1, -0.1\n3, 0, 0.1\n4, 1, 0.1\n50, 1, 0\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1, 2\n"
+             "2, 3, 4\n3, 1, 3\n*MATERIAL, NAME=M\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*BEAM SECTION, ELSET=B, "
+             "SECTION=RECT, MATERIAL=M\n0.02, 0.01\n0, 0, 1\n*NSET, NSET=root\n1, 3\n*SURFACE, NAME=tips, TYPE=NODE\n"
+             "2\n4\n*COUPLING, CONSTRAINT NAME=c, SURFACE=tips, REF NODE=50\n*DISTRIBUTING\n1, 6\n");
+  const std::string scene = fill(R"yaml(
+bodies: {b: {mesh: {file: {path: $deck}}, reduction: {modes: 4, attachment: all}}}
+joints: {root: {type: fixed, between: [ground, b.root]}}
+loads: {p: {type: moment, at: b.tips, moment: [0.01, 0, 0]}}
+motion: {end: 1, step: 1}
+probes: {turn: {at: b.tips, quantity: rotation}, one: {at: {body: b, node: [1, 0.1, 0]}, quantity: displacement}}
+)yaml",
+                                 {{"deck", deck}});
+  const double EI = 2e11 * 0.01 * std::pow(0.02, 3) / 12, w = 0.01 / 0.2 / (3 * EI);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    History at = rest(scene, formulation);
+    CHECK(at["one.z"].back() == Approx(w).epsilon(1e-3));
+    CHECK(at["turn.rx"].back() == Approx(w / 0.1).epsilon(1e-3));
+  }
+}
