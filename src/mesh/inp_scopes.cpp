@@ -8,9 +8,9 @@ namespace {
 template <class Visit>
 void each_definition(const InpBlock& block, const Visit& visit) {
   static const std::tuple<const char*, const char*, InpName> definitions[] = {
-      {"NSET", "NSET", InpName::nodes},          {"NODE", "NSET", InpName::nodes},
-      {"ELSET", "ELSET", InpName::elements},     {"ELEMENT", "ELSET", InpName::elements},
-      {"SURFACE", "NAME", InpName::surface},     {"ORIENTATION", "NAME", InpName::orientation}};
+      {"NSET", "NSET", InpName::nodes},      {"NODE", "NSET", InpName::nodes},
+      {"ELSET", "ELSET", InpName::elements}, {"ELEMENT", "ELSET", InpName::elements},
+      {"SURFACE", "NAME", InpName::surface}, {"ORIENTATION", "NAME", InpName::orientation}};
   for (const auto& [keyword, parameter, kind] : definitions)
     if (const auto name = block.parameters.find(parameter); block.keyword == keyword && name != block.parameters.end())
       visit(kind, upper(name->second));

@@ -11,7 +11,7 @@ namespace floe::mesh {
 struct NasBuild::Rotations {
   std::vector<std::pair<std::size_t, int>> beams;  // each with its end at the grid
   std::string other;                               // in words; empty: nothing
-  bool shell = false, linked = false;
+  bool shell = false, linked = false, spring = false;
 };
 
 std::unordered_map<long long, NasBuild::Rotations> NasBuild::rotations_of_grids() const {
@@ -26,7 +26,7 @@ std::unordered_map<long long, NasBuild::Rotations> NasBuild::rotations_of_grids(
   for (const NasSpring& spring : model_.springs)
     for (int end : {0, 1})
       if (spring.grids[1 - end] > 0 && !(spring.scalar() && spring.components[end] <= 3))
-        other(spring.grids[end], fmt::format("spring {}", spring.id));
+        other(spring.grids[end], fmt::format("spring {}", spring.id)), all[spring.grids[end]].spring = true;
   for (const NasMass& mass : model_.masses)
     if (!mass.mass.inertia.isZero(0) || !mass.mass.offset.isZero(0) || mass.axes < 0)
       other(mass.grid, "a CONM2 with inertia or offset");
@@ -68,7 +68,7 @@ void NasBuild::free_rotations() {
     for (const long long grid : link.nodes) {
       const auto found = rotations.find(grid);
       if (found == rotations.end() || (found->second.other.empty() && found->second.beams.empty())) continue;
-      const auto& [beams, other, shell, linked] = found->second;
+      const auto& [beams, other, shell, linked, spring] = found->second;
       const auto bends = [&](const auto& end) { return !model_.beams[end.first].rod; };
       const auto at = [&](const auto& end) {
         return model_.beams[end.first].offsets[static_cast<std::size_t>(end.second)];
@@ -98,12 +98,23 @@ void NasBuild::find_rods_alone() {
   const auto is_rod = [&](const NasBeam& beam) { return beam.rod; };
   if (std::none_of(model_.beams.begin(), model_.beams.end(), is_rod)) return;
   const auto rods_alone = [&](const Rotations& at) {
-    return at.other.empty() && std::all_of(at.beams.begin(), at.beams.end(),
-                                           [&](const auto& end) { return is_rod(model_.beams[end.first]); });
+    return std::all_of(at.beams.begin(), at.beams.end(),
+                       [&](const auto& end) { return is_rod(model_.beams[end.first]); });
   };
-  for (const auto& [grid, at] : rotations_of_grids())
-    if ((!independent_.contains(grid) || free_.contains(grid)) && rods_alone(at))
+  std::vector<long long> masses;
+  for (const auto& [grid, at] : rotations_of_grids()) {
+    if ((independent_.contains(grid) && !free_.contains(grid)) || at.beams.empty() || !rods_alone(at)) continue;
+    if (at.other.empty())
       for (const auto& [rod, end] : at.beams) alone_[rod] |= 1u << end;
+    else if (!at.shell && !at.linked && !at.spring)
+      masses.push_back(grid);
+  }
+  std::sort(masses.begin(), masses.end());
+  if (!masses.empty())
+    notices.push_back(fmt::format(
+        "{}: grid{} {}: rods alone hold a mass with an offset or moments of inertia, which nothing keeps from "
+        "rotating: its frequencies are near 0",
+        faults_.text_of({0, 1}), masses.size() > 1 ? "s" : "", fmt::join(masses, ", ")));
 }
 
 void NasBuild::add_links() {

@@ -80,6 +80,12 @@ TEST_CASE("ends of rods at grids of Nastran that rods alone hold") {
   std::vector<unsigned> alone;
   for (const mesh::BeamSection& section : file.deck.beam_sections) alone.push_back(section.alone);
   CHECK(alone == std::vector<unsigned>{2, 3, 1, 0, 2});
+  CHECK(file.notices.empty());
+  const std::string rods =
+      square + "GRID,5,,0.,0.,1.\nCONROD,71,1,5,1,1.-4\nCONROD,72,2,5,1,1.-4\nCONROD,73,3,5,1,1.-4\n";
+  CHECK(read("alone.bdf", rods + "CONM2,90,5,,1.5\n").notices.empty());
+  CHECK_THAT(read("alone.bdf", rods + "CONM2,90,5,,1.5,.1,0.,0.\n").notices.at(0),
+             Contains("grid 5: rods alone hold a mass with an offset or moments of inertia"));
 }
 
 TEST_CASE("pin flags release the ends of a beam, and tell parts of one property apart") {
