@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "inp_reading.h"
 #include "text.h"
 
@@ -25,6 +27,18 @@ std::optional<Eigen::Isometry3d> motion_of(const InpBlock& block, InpReading& re
   return Eigen::Translation3d(a) * by * Eigen::Translation3d(-a) * motion;
 }
 
+/// Of the part: whether they rotate with it is not known.
+void refuse_directions(InpReading& reading) {
+  const std::string why = " in a part whose *INSTANCE is rotated is not read";
+  for (const InpUse& use : reading.uses)
+    if (use.kind == InpUse::spring && use.directions[0] > 0)
+      reading.faults.add(use.where, "*SPRING with directions" + why);
+  for (const InpLink& link : reading.links)
+    if (std::any_of(link.free.axis.begin(), link.free.axis.end(), [](double x) { return x != 0; }))
+      reading.faults.add(link.where,
+                         "*KINEMATIC with one or two of the rotations" + why + ": define it in the *ASSEMBLY");
+}
+
 }  // namespace
 
 void read_instance(const InpBlock& block, InpReading& reading) {
@@ -46,7 +60,9 @@ void read_end_instance(const InpBlock&, InpReading& reading) {
     transform.a = transform.type == 'R' ? motion->linear() * transform.a : *motion * transform.a;
     transform.b = transform.type == 'R' ? motion->linear() * transform.b : *motion * transform.b;
   }
-  for (InpEquation& equation : reading.equations) equation.turned = !motion->linear().isIdentity(1e-12);
+  const bool turned = !motion->linear().isIdentity(1e-12);
+  for (InpEquation& equation : reading.equations) equation.turned = turned;
+  if (turned) refuse_directions(reading);
   for (InpCylinder& cylinder : reading.cylinders) {
     cylinder.a = *motion * cylinder.a;
     cylinder.b = *motion * cylinder.b;

@@ -12,7 +12,7 @@ namespace {
 
 // The node that a text names: its number, or the only one of a set. Collective.
 std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where where, InpReading& reading) {
-  if (const auto label = number<long long>(text)) return label;
+  if (const auto label = number<long long>(reading.scopes.own(text, InpName::nodes))) return label;
   const int set = reading.node_sets.find(reading.scopes.own(text, InpName::nodes));
   if (set < 0) {
     reading.faults.add(where, "there is no node set " + in_quotes(text) + suggestion(text, reading.node_sets.names()));
@@ -201,7 +201,7 @@ void resolve_links(MPI_Comm comm, InpReading& reading) {
   std::vector<std::tuple<const InpLink*, long long, int>> means;  // reference and set of each
   for (const auto& link : reading.links) {
     const auto reference = one_node(comm, link.reference, link.where, reading);
-    const auto node = number<long long>(link.nodes);
+    const auto node = number<long long>(reading.scopes.own(link.nodes, InpName::nodes));
     const int set =
         node && link.kind != InpLink::mean ? -1 : set_named(link.nodes, link.where, reading, link.set_first);
     if (!reference || (set < 0 && (!node || link.kind == InpLink::mean))) continue;

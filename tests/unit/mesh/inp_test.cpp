@@ -163,6 +163,22 @@ TEST_CASE("an instance moves its part, its orientations and the directions of it
   }
 }
 
+TEST_CASE("directions in a part whose instance is rotated are refused, numbers of its nodes read") {
+  const auto path = [](const std::string& more, const std::string& motion, const std::string& after) {
+    return testing::written("turned.inp", "*PART, NAME=P\n" + square(more) +
+                                              "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n" + motion +
+                                              "*END INSTANCE\n" + after + "*END ASSEMBLY\n");
+  };
+  const std::string link = "*NSET, NSET=N\n1\n*SURFACE, NAME=T, TYPE=NODE\n3\n*COUPLING, REF NODE=N, SURFACE=T\n",
+                    free = "*KINEMATIC\n1, 5\n", turn = "0., 0., 0.\n0., 0., 0., 0., 0., 1., 90.\n";
+  CHECK(read(path(link + free, "", "")).deck.links.size() == 1);
+  CHECK(read(path(link + "*KINEMATIC\n", turn, "")).deck.links.size() == 1);
+  const auto wrong = path(link + free, turn, "");
+  CHECK_THAT(testing::fault_of([&] { read(wrong); }),
+             Contains("*KINEMATIC with one or two of the rotations in a part whose *INSTANCE is rotated is not read"));
+  CHECK(read(path("", "", "*MPC\nBEAM, I.3, I.1\n")).deck.links.size() == 1);
+}
+
 TEST_CASE("keywords that do not make a linear elastic body are ignored with one line each") {
   const auto path = testing::written(
       "ignored.inp",
