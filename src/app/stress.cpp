@@ -289,7 +289,7 @@ std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& p
           spec.name));
     if (const auto [without, elements] = without_stresses(of.bodies[static_cast<std::size_t>(number)]); without > 0)
       notes.push_back(fmt::format(
-          "body {}: {} have forces and moments, but no stresses: their sections are given by their stiffness{}; "
+          "body {}: {} have forces and moments, but no stresses: their sections have no shape and no fibres{}; "
           "expected fibre or fibres of a section of beams, or stress points C to F of PBAR or PBEAM",
           spec.name,
           without < elements ? fmt::format("{} of {} elements", without, elements)

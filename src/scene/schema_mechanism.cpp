@@ -223,7 +223,7 @@ const SchemaSection probe_section{
             "quantity", "",
             "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
             "to the floating frame, of a body in several frames to that of the whole body; rotation: of the section "
-            "(in "
+            "since the start (in "
             "spatial scenes a rotation vector of length at most pi); acceleration, angular_acceleration: in world "
             "axes, "
             "or in those of relative_to (accelerometers); force, moment (about the second place): of a "
