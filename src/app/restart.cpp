@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "commands.h"
@@ -11,17 +12,24 @@
 namespace floe::app {
 namespace {
 
-/// Until when the run was simulated, if it is finished. Collective.
-std::optional<double> finished_at(const output::ResultFolder& folder, MPI_Comm comm) {
-  std::optional<double> reached;
+/// Where a finished run ended, at the end of the motion or by an event that stops it; none: something is left of it.
+/// Collective.
+std::optional<double> ended_at(const output::ResultFolder& folder, double end, MPI_Comm comm) {
+  std::optional<double> ended;
   petsc::agree(comm, [&] {
+    using nlohmann::ordered_json;
     std::ifstream file(folder.summary());
-    const nlohmann::ordered_json summary = nlohmann::ordered_json::parse(file, nullptr, false);
+    const ordered_json summary = ordered_json::parse(file, nullptr, false);
     if (!summary.is_object() || summary.value("status", "") != "finished") return;
-    const auto integration = summary.value("integration", nlohmann::ordered_json::object());
-    if (integration.contains("reached")) reached = integration["reached"].get<double>();
+    const ordered_json integration = summary.value("integration", ordered_json::object()),
+                       events = summary.value("events", ordered_json::array());
+    if (!integration.contains("reached")) return;
+    const double reached = integration["reached"];
+    const bool stopped =
+        std::any_of(events.begin(), events.end(), [](const auto& event) { return event.value("what", "") == "stop"; });
+    if (stopped || reached >= end) ended = reached;
   });
-  return reached;
+  return ended;
 }
 
 }  // namespace
@@ -38,13 +46,12 @@ void restart_one(const std::string& path, const std::string& scene_file, const s
   petsc::agree(
       comm, [&] { scene = scene::read_scene(scene_file.empty() ? run.at("scene").get<std::string>() : scene_file); });
   petsc::agree(comm, [&] { check_identity(run, identity_of(scene, of_run, comm), path); });
-  const std::optional<double> reached = finished_at(folder, comm);
-  if (reached && until && *until < *reached)
-    throw InputError(
-        fmt::format("--until {}: the run is finished, at t = {}; expected a later time", *until, *reached));
-  if (reached && (!until || *until == *reached)) {
+  if (const std::optional<double> ended = ended_at(folder, until.value_or(scene.motion.end), comm)) {
+    if (until && *until < *ended)
+      throw InputError(
+          fmt::format("--until {}: the run is finished, at t = {}; expected a later time", *until, *ended));
     if (petsc::first_rank(comm))
-      fmt::print("{} is finished, at t = {} s: nothing is left to simulate (--until T continues it)\n", path, *reached);
+      fmt::print("{} is finished, at t = {} s: nothing is left to simulate (--until T continues it)\n", path, *ended);
     return;
   }
   output::remove_drafts(comm, folder);
