@@ -19,9 +19,13 @@ const Interface& interface_of(const Plan& plan, int joint) {
   return plan.interfaces.empty() ? none : plan.interfaces[joint];
 }
 
-/// Moments about z, x, y, as the products of fixed places have them.
-SpatialConstraint vanishing_moments() { return {{Along{2}, Along{0}, Along{1}}}; }
+/// Moments about z, x, y, as the products of fixed places have them; about z, the normal, where there is none.
+SpatialConstraint vanishing_moments(const Interface& cut) {
+  if (cut.rows_of_higher() < 6) return {{Along{0}, Along{1}}};
+  return {{Along{2}, Along{0}, Along{1}}};
+}
 SpatialConstraint vanishing_forces() { return {{Along{0}, Along{1}, Along{2}}}; }
+SpatialConstraint vanishing_force_across() { return {{Along{0}}}; }
 
 }  // namespace
 
@@ -32,7 +36,8 @@ int SpatialAssembly::row_count(int j) const {
                            [](int sum, const ConstrainedNode& one) { return sum + static_cast<int>(one.dofs.size()); });
   const Interface& cut = interface_of(plan_, j);
   if (cut.empty()) return spatial_rows(plan_.scene.joints[j].kind);
-  return 6 * static_cast<int>(is_reduced(formulation_) ? cut.factors.cols() : std::ssize(cut.pairs));
+  if (!is_reduced(formulation_)) return 6 * static_cast<int>(std::ssize(cut.pairs));
+  return 6 + static_cast<int>(cut.rows_of_higher() * (cut.whole() - 1) + cut.across);
 }
 
 void SpatialAssembly::count_uses() {
@@ -78,7 +83,13 @@ std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_all(int j) {
       at.mass = 0;  // the factors sum up to zero
       at.D0 = plan_.bodies[plan_.joints[j][side].body].attitude.transpose() * plan_.joint_axes[j];
     }
-    PlacedJoint moments{forces.places, vanishing_moments()};
+    if (vector >= cut.whole()) {
+      forces.constraint = vanishing_force_across();
+      for (dynamics::SpatialMarker& at : forces.places) at.psi.setZero();
+      all.push_back(std::move(forces));
+      continue;
+    }
+    PlacedJoint moments{forces.places, vanishing_moments(cut)};
     for (int side : {0, 1}) {
       moments.places[side].S = forces.places[side].psi;
       moments.places[side].x0.setZero();
@@ -97,9 +108,15 @@ JointMultipliers SpatialAssembly::multipliers_of(int j) const {
   const Interface& cut = interface_of(plan_, j);
   if (cut.empty() || own.rows.empty() || !is_reduced(formulation_)) return own;
   own.at_nodes.setZero(6 * std::ssize(cut.pairs), std::ssize(own.rows));
-  for (Index node = 0; node < std::ssize(cut.pairs); ++node)
-    for (Index vector = 0; vector < cut.factors.cols(); ++vector)
-      own.at_nodes.block<6, 6>(6 * node, 6 * vector).diagonal().setConstant(cut.factors(node, vector));
+  for (Index node = 0; node < std::ssize(cut.pairs); ++node) {
+    for (Index i = 0; i < cut.across; ++i)
+      own.at_nodes(6 * node, own.at_nodes.cols() - cut.across + i) = cut.factors(node, cut.whole() + i);
+    for (Index vector = 0; vector < cut.whole(); ++vector) {
+      const Index rows = vector == 0 ? 6 : cut.rows_of_higher(), first = vector == 0 ? 0 : 6 + rows * (vector - 1);
+      own.at_nodes.block<3, 3>(6 * node, first).diagonal().setConstant(cut.factors(node, vector));
+      for (Index i = 3; i < rows; ++i) own.at_nodes(6 * node + i + (6 - rows), first + i) = cut.factors(node, vector);
+    }
+  }
   const Eigen::Matrix3d W = plan_.bodies[plan_.joints[j][0].body].attitude.transpose() * plan_.joint_axes[j],
                         moments = (Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished() * W.transpose();
   for (Index node = 0; node < std::ssize(cut.pairs); ++node) {

@@ -33,7 +33,7 @@ Vector3d displacement_at(const PlannedBody& body, const Anchor& place, Vec shape
 std::vector<Anchor> places_of(const Plan& plan, std::size_t j) {
   std::vector<Anchor> all{plan.joints[j][0], plan.joints[j][1]};
   if (plan.interfaces.empty() || plan.interfaces[j].empty()) return all;
-  for (Eigen::Index vector = 1; vector < plan.interfaces[j].factors.cols(); ++vector)
+  for (Eigen::Index vector = 1; vector < plan.interfaces[j].whole(); ++vector)
     for (int side : {0, 1}) all.push_back(plan.interfaces[j].sum(side, vector));
   return all;
 }

@@ -273,9 +273,19 @@ bool carries_moment(const Scene& scene, const Joint& joint) {
 }
 
 /// Forces and moments on a side of a cut that its interface vectors distribute, besides the first one.
-void add_interface(const PlannedBody& body, const Interface& cut, int side, const std::string& name, Attachments& all) {
-  for (Eigen::Index vector = 1; vector < cut.factors.cols(); ++vector)
+/// @param across  the joint's x, world
+void add_interface(const PlannedBody& body, const Interface& cut, const Eigen::Vector3d& across, int side,
+                   const std::string& name, Attachments& all) {
+  const Eigen::Vector3d normal = body.attitude.transpose() * cut.normal, along = body.attitude.transpose() * across;
+  for (Eigen::Index vector = cut.whole(); vector < cut.factors.cols(); ++vector) {
+    reduction::Attachment sum{fmt::format("{}/{}.across", name, vector + 1), fem::field(body.structure), {}, true};
+    for (int c = 0; c < 3; ++c)
+      check(VecAXPY(sum.load, along[c], unit_load(body, cut.sum(side, vector), c, name).load));
+    all.push_back(std::move(sum));
+  }
+  for (Eigen::Index vector = 1; vector < cut.whole(); ++vector)
     for (int c = 0; c < 6; ++c) {
+      if (c >= 3 && std::abs(normal[c - 3]) > 1 - 1e-9) continue;
       all.push_back(unit_load(body, cut.sum(side, vector), c, fmt::format("{}/{}", name, vector + 1)));
       all.back().of_higher_vector = true;
     }
@@ -298,7 +308,7 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
     const bool moment = carries_moment(plan.scene, joint);
     for (const int side : {0, 1})
       if (!plan.interfaces.empty() && plan.joints[j][side].body == index)
-        add_interface(body, plan.interfaces[j], side, joint.name, all);
+        add_interface(body, plan.interfaces[j], plan.joint_axes[j].col(0), side, joint.name, all);
     for (const Anchor& place : plan.joints[j])
       for (int c = 0; place.body == index && c < (moment ? n : d); ++c)
         all.push_back(unit_load(body, place, c, joint.name));

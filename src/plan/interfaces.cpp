@@ -1,5 +1,6 @@
 #include "interfaces.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The nodes of a place, one by one. Collective.
@@ -53,6 +55,29 @@ MatrixXd factors(const std::vector<std::array<Anchor, 2>>& pairs, const VectorXd
       P.rightCols<1>() = p / size;
     }
   return weights.asDiagonal() * P;
+}
+
+/// Of the shells on both sides. Collective.
+void find_normal(Plan& plan, std::size_t j) {
+  std::array<Vector3d, 2> normals;
+  for (const int side : {0, 1}) {
+    const Anchor& place = plan.joints[j][side];
+    const PlannedBody& body = plan.bodies[place.body];
+    const std::optional<Vector3d> normal = common_normal(body.structure, place.nodes);
+    if (!normal) return;
+    normals[side] = body.attitude * *normal;
+  }
+  if (normals[0].cross(normals[1]).norm() > 1e-6) return;
+  Interface& found = plan.interfaces[j];
+  const PlannedBody& body = plan.bodies[plan.joints[j][0].body];
+  Eigen::Matrix3Xd x(3, std::ssize(found.pairs));
+  for (Index i = 0; i < x.cols(); ++i) x.col(i) = found.pairs[static_cast<std::size_t>(i)][0].x;
+  x.colwise() -= x.rowwise().mean().eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> inertia(x * x.transpose());
+  Eigen::Matrix3d& axes = plan.joint_axes[j];
+  axes.col(2) = found.normal = normals[0];
+  axes.col(0) = (body.attitude * inertia.eigenvectors().col(2)).cross(normals[0]).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
 }
 
 }  // namespace
@@ -109,6 +134,13 @@ void find_interfaces(Plan& plan) {
     for (const int side : {0, 1}) {
       if (found.factors.cols() == 1) set_rotation(plan.bodies[plan.joints[j][side].body].structure, means[side]);
       found.means[side] = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(means[side]));
+    }
+    const int degree = body.spec.reduction.interface_degree;
+    if (degree > 0) find_normal(plan, j);
+    if (!found.normal.isZero(0)) {
+      const Index whole = found.factors.cols();
+      found.factors = factors(found.pairs, weights, degree + 1);
+      found.across = found.factors.cols() - whole;
     }
     first = found.sum(0, 0), second = found.sum(1, 0);
   }

@@ -118,4 +118,25 @@ void set_rotation(const fem::Structure& structure, std::vector<reduction::Weight
   }
 }
 
+std::optional<Vector3d> common_normal(const fem::Structure& structure, const std::vector<PetscInt>& nodes) {
+  constexpr double flat = 1e-12;  // square of an angle
+  std::vector<reduction::WeightedNode> weights;
+  for (const PetscInt node : nodes) weights.push_back({node, 1});
+  int others = 0;  // elements that are no shells
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells)
+    if (!fem::is_shell(cell))
+      for (const int place : cell.places())
+        others += std::find(nodes.begin(), nodes.end(), structure.mesh.global_node(place)) != nodes.end();
+  MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_SUM, structure.mesh.comm);
+  if (nodes.empty() || others > 0) return {};
+  Matrix3d bent = Matrix3d::Zero();
+  for (const NodeOfShells& node : nodes_of_shells(structure, weights)) {
+    if (!(node.area > 0)) return {};
+    bent += Matrix3d::Map(node.bent) / node.area / static_cast<double>(nodes.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(bent);
+  if (axes.eigenvalues()[0] > flat) return {};
+  return axes.eigenvectors().col(0);
+}
+
 }  // namespace floe::plan

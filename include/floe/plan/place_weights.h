@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "floe/reduction/place_set.h"
 
 namespace floe::plan {
@@ -55,6 +57,10 @@ enum class RotationBy {
 /// @param weights  their sum is 1
 void set_rotation(const fem::Structure& structure, std::vector<reduction::WeightedNode>& weights,
                   RotationBy by = RotationBy::nearest_motion);
+
+/// The normal that all elements at these nodes have, in the frame's axes: flat shells and nothing else; none: they have
+/// not one. Collective.
+std::optional<Eigen::Vector3d> common_normal(const fem::Structure& structure, const std::vector<PetscInt>& nodes);
 
 /// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
 /// length or area, int N_i s. Not normalised; of either sign. Collective.

@@ -107,6 +107,13 @@ struct Interface {
   std::vector<std::array<Anchor, 2>> pairs;
   Eigen::MatrixXd factors;       ///< pairs x vectors; columns but the first sum up to zero
   std::array<Weights, 2> means;  ///< of the first vector on each side
+  /// Of flat shells, else zero: their normal, world; the joint's z, and its x is in their plane, across the cut.
+  /// Rotations about the normal have neither mass nor much stiffness (drilling): only the first vector couples them. In
+  /// place of those of the others, the last vectors, one degree higher, couple displacements across the cut.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  Eigen::Index across = 0;                                        ///< how many of the last vectors
+  Eigen::Index whole() const { return factors.cols() - across; }  ///< vectors that couple all else
+  int rows_of_higher() const { return normal.isZero(0) ? 6 : 5; }
   bool empty() const { return pairs.empty(); }
   /// Place `vector` of a side: the sum of its nodes' places.
   Anchor sum(int side, Eigen::Index vector) const;
