@@ -1,5 +1,6 @@
 #include "floe/assembly/frame_by_places.h"
 
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "floe/math/rotation.h"
@@ -67,35 +68,37 @@ Matrix3d swung(const Matrix3d& from, const Vector3d& axis, const Vector3d& direc
   return Eigen::Quaterniond::FromTwoVectors(from * axis, direction).toRotationMatrix() * from;
 }
 
-Vector3d rotation_between(const Matrix3d& from, const Matrix3d& to) {
-  return math::rotation_vector(Eigen::Quaterniond(Matrix3d(from.transpose() * to)).normalized());
-}
-
 struct SpatialAxes {
   Vector3d origin;
   Matrix3d axes;
 };
 
+/// The rotation nearest to a sum of rotated second moments: R of its polar decomposition.
+Matrix3d nearest_rotation(const Matrix3d& sum) {
+  const Eigen::JacobiSVD<Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Matrix3d& U = svd.matrixU();
+  const Matrix3d& V = svd.matrixV();
+  return U * Vector3d(1, 1, U.determinant() * V.determinant()).asDiagonal() * V.transpose();
+}
+
 SpatialAxes mean_axes(const SpatialFrameByPlaces& frame, const Eigen::VectorXd& q) {
+  constexpr double about_the_line = 1e-9;  // of the moments: parts on one line by their own rotations
   std::vector<Vector3d> at;
   std::vector<Matrix3d> D;
-  for (const dynamics::SpatialMarker& place : frame.places) {
-    const dynamics::SpatialPose pose = pose_of(place, q);
+  Vector3d r = Vector3d::Zero(), X = Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < frame.places.size(); ++i) {
+    const dynamics::SpatialPose pose = pose_of(frame.places[i], q);
     at.push_back(pose.p), D.push_back(pose.D);
+    r += frame.masses[i] * pose.p, X += frame.masses[i] * frame.undeformed[i], mass += frame.masses[i];
   }
-  const Vector3d r = mean(at), X = mean(frame.undeformed);
-  const Vector3d axis = (frame.undeformed.back() - frame.undeformed.front()).normalized();
-  Vector3d direction = Vector3d::Zero();
-  for (std::size_t i = 0; i < at.size(); ++i)
-    direction += axis.dot(frame.undeformed[i] - X) * (at[i] - r) + frame.gyration * D[i] * axis;
-  Matrix3d A = swung(D[D.size() / 2], axis, direction);
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    double twist = 0;
-    for (const Matrix3d& one : D) twist += rotation_between(A, one).dot(axis) / static_cast<double>(D.size());
-    A = A * math::rotation(twist * axis);
-    if (std::abs(twist) < 1e-14) break;
+  r /= mass, X /= mass;
+  Matrix3d sum = Matrix3d::Zero(), turned = Matrix3d::Zero();
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    sum += frame.masses[i] * (at[i] - r) * (frame.undeformed[i] - X).transpose() + D[i] * frame.moments[i];
+    turned += frame.masses[i] / mass * D[i];
   }
-  return {r, A};
+  return {r, nearest_rotation(sum + about_the_line * sum.norm() * turned)};
 }
 
 }  // namespace

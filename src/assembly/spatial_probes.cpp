@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "floe/math/rotation.h"
 #include "floe/scene/places.h"
 #include "floe/scene/sensors.h"
@@ -16,26 +18,24 @@ Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 /// Of a part of a split body, in mesh axes.
 struct MassCentre {
   Vector3d at;
-  double gyration;  ///< its square, about axes across the body's length [m2]
+  double mass;              ///< [kg], of lines relative to the others
+  Eigen::Matrix3d moments;  ///< second ones, about it, over the mass [m2]
 };
 
-/// @param along  from the first part to the last, in mesh axes
-MassCentre mass_centre_of_piece(const PlannedBody& part, const body::Inertia& mass, const Vector3d& along) {
-  const Eigen::Matrix3d moments =
-      part.axes * (mass.C0 / mass.m - mass.s0 * mass.s0.transpose() / (mass.m * mass.m)) * part.axes.transpose();
-  const double lengthwise = along.dot(moments * along);
-  return {part.origin + part.axes * mass.s0 / mass.m, lengthwise + (moments.trace() - lengthwise) / 2};
+MassCentre mass_centre_of_piece(const PlannedBody& part, const body::Inertia& mass) {
+  return {part.origin + part.axes * mass.s0 / mass.m, mass.m,
+          part.axes * (mass.C0 / mass.m - mass.s0 * mass.s0.transpose() / (mass.m * mass.m)) * part.axes.transpose()};
 }
 
 MassCentre mass_centre(const Body& part) {
   const Vector3d a = vector(part.mesh.points[part.mesh.segments[0][0]]),
                  b = vector(part.mesh.points[part.mesh.segments[0][1]]), along = (b - a).normalized();
-  MassCentre centre{(a + b) / 2, (b - a).squaredNorm() / 12};
+  MassCentre centre{(a + b) / 2, 1, (b - a) * (b - a).transpose() / 12};  // parts of one length
   const auto* beam = std::get_if<fem::SpatialBeam>(&part.parts.front().section);
   if (!beam || beam->section.rhoA == 0) return centre;
   const Vector3d z = along.cross(beam->orientation).normalized();
   centre.at += beam->section.centroid[0] * z.cross(along) + beam->section.centroid[1] * z;
-  centre.gyration += (beam->section.rhoIy + beam->section.rhoIz) / (2 * beam->section.rhoA);
+  centre.moments += (beam->section.rhoIy + beam->section.rhoIz) / (2 * beam->section.rhoA) * along * along.transpose();
   return centre;
 }
 
@@ -83,7 +83,6 @@ SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& pla
   };
   SpatialFrameByPlaces frame{plan_.bodies[probe.body].frame.kind, {}, {}};
   Vector3d origin = Vector3d::Zero();
-  const Vector3d along = (in_mesh_axes(places.back()) - in_mesh_axes(places.front())).normalized();
   for (const Anchor& place : places) {
     const PlannedBody& part = plan_.bodies[place.body];
     SpatialMarker at = marker(place);
@@ -91,16 +90,18 @@ SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& pla
     frame.undeformed.push_back(in_mesh_axes(place));
     if (frame.kind == FrameKind::mean_axis) {
       const MassCentre centre =
-          part.spec.mesh.piece ? mass_centre_of_piece(part, rigid(part).body.inertia, along) : mass_centre(part.spec);
-      frame.undeformed.back() = centre.at, frame.gyration = centre.gyration;
+          part.spec.mesh.piece ? mass_centre_of_piece(part, rigid(part).body.inertia) : mass_centre(part.spec);
+      frame.undeformed.back() = centre.at;
+      frame.masses.push_back(centre.mass), frame.moments.push_back(centre.mass * centre.moments);
       at.x0 = part.axes.transpose() * (centre.at - part.origin);
       at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 0);
       at.coordinates.resize(std::min<std::size_t>(at.coordinates.size(), 6));
-      origin += centre.at / static_cast<double>(places.size());
+      origin += centre.mass * centre.at;
     }
     frame.places.push_back(std::move(at));
   }
   if (frame.kind != FrameKind::mean_axis) origin = frame.undeformed.front();
+  if (frame.kind == FrameKind::mean_axis) origin /= std::accumulate(frame.masses.begin(), frame.masses.end(), 0.);
   frame.of_probe = in_mesh_axes(probe) - origin;
   return frame;
 }

@@ -31,14 +31,16 @@ Eigen::Vector2d deflection(const FrameByPlaces& frame, const Eigen::VectorXd& q,
 
 /// The same in space, undeformed positions and deflections in the axes of the mesh; the axes of each place are those of
 /// the mesh, carried by it. Pinned: the frame rotates about the line from a to b with place a (no component of the
-/// rotation vector of a relative to the frame along that line); mean_axis, of one straight line: the mean of these
-/// components of the parts is zero, and the axis of the frame is along sum_i s_i d_i + k^2 t_i, t_i the axes of the
-/// parts and s_i = D_i . t.
+/// rotation vector of a relative to the frame along that line); mean_axis: centres of mass r_i of parts of masses m_i,
+/// which are rotated by R_i and have the second moments C_i about these, with d_i = r_i - mean r and D_i = X_i - mean
+/// X, means by mass: A is the rotation nearest to sum_i m_i d_i D_i' + R_i C_i (the mean axes of parts that are rigid,
+/// at any rotations), of parts on one line about it the one nearest to their rotations.
 struct SpatialFrameByPlaces {
   FrameKind kind;
   std::vector<dynamics::SpatialMarker> places;
   std::vector<Eigen::Vector3d> undeformed;
-  double gyration = 0;
+  std::vector<double> masses = {};            ///< [kg]
+  std::vector<Eigen::Matrix3d> moments = {};  ///< [kg m2], axes of the mesh
   Eigen::Vector3d of_probe = Eigen::Vector3d::Zero();
 };
 
