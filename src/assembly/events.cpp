@@ -126,6 +126,8 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
     out.name = fmt::format("{}.{}", stop.joint, side);
     out.what = fmt::format("joint {} hits its {} limit", stop.joint, side);
     out.what_back = fmt::format("joint {} leaves its {} limit", stop.joint, side);
+    out.width = stop.term ? stop.term->law().width : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &out.width, 1, MPI_DOUBLE, MPI_MAX, model.system->comm());
     out.gap = [&model, i](double t, Vec U, Vec V) { return stop_gap(model, i, t, U, V); };
     events.push_back(std::move(out));
   }

@@ -36,8 +36,23 @@ void Crossings::begin(TS ts) {
   searched_ = -1, back_ = arrived_ = false;
   located_.assign(events_.size(), 0);
   before_ = see(t, U, V);
+  shorten(ts, before_);
   for (std::size_t i = 0; i < events_.size(); ++i)
     if (events_[i].repeats() && happened_[i] == 0) happened_[i] = before_.value[i] < 0 ? -1 : 1;
+}
+
+/// Adaptive steps end before a stop that they approach, and begin at it so short that its force sets in within several
+/// of them: of a step that begins before the stop and ends at it, accelerations are zero at both ends, and so is the
+/// estimate of its error.
+void Crossings::shorten(TS ts, const Seen& now) const {
+  constexpr double share = 0.9;  // of the way
+  if (step_ > 0) return;
+  double next = 0, most = std::numeric_limits<double>::infinity();
+  check(TSGetTimeStep(ts, &next));
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (events_[i].width > 0 && now.rate[i] < 0)
+      most = std::min(most, std::max(share * now.value[i], events_[i].width / 2) / -now.rate[i]);
+  if (most < next) check(TSSetTimeStep(ts, most));
 }
 
 namespace {
@@ -145,6 +160,7 @@ void Crossings::go_on(const Step& step) {
   check(TSGetMaxTime(step.ts, &end));
   const double next = step_ > 0 ? step_ : whole_;
   if (end > step.end) check(TSSetTimeStep(step.ts, std::min(next, end - step.end)));
+  shorten(step.ts, before_);
 }
 
 namespace {
@@ -211,7 +227,7 @@ void Crossings::after_step(TS ts) {
   const double first = find_first(step, now);
   if (searched_ < 0) {
     before_ = now;
-    return;
+    return shorten(ts, now);
   }
   const bool repeats = events_[searched_].repeats();
   arrived_ = step.end - first <= (repeats ? close : 1e-9) * h;  // the step's end
@@ -221,7 +237,7 @@ void Crossings::after_step(TS ts) {
     if (!repeats) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
     report(searched_, first, now.rate[searched_]);
     searched_ = -1, arrived_ = false;
-    return;
+    return shorten(ts, now);
   }
   target_ = std::max(first, step.begin + 1e-9 * h);
   whole_ = h;

@@ -54,6 +54,7 @@ class Crossings {
   void mark_located(const Seen& now);
   void report(std::size_t event, double t, double rate);
   void go_on(const Step& step);
+  void shorten(TS ts, const Seen& now) const;
   const std::vector<Event>& events_;
   std::vector<double>& happened_;
   double step_;

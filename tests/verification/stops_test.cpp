@@ -82,6 +82,33 @@ TEST_CASE("stops: damping dissipates the expected speed") {
   CHECK(found.rebound == Approx(-4 * std::exp(-z * M_PI / std::sqrt(1 - z * z))).epsilon(0.02));
 }
 
+// A free body has no acceleration before the stop, nor at it: the error of a step from far before it to its end in the
+// stop is estimated as nothing. Contacts came up to 78 % late, without a rebound, and in space with a turn less.
+TEST_CASE("stops: adaptive steps do not pass over a stop that a free body comes to") {
+  const std::string text = R"yaml(
+bodies: {a: {rigid: {mass: 3, centre: $centre, inertia: $inertia}, initial: {angular_velocity: $w}}}
+joints: {hinge: {type: revolute, between: [ground, a.centre], $axis limits: {upper: 0.5, stiffness: 400, width: 0.01}}}
+motion: {end: 3, step: 1e-3, tolerance: $tolerance}
+probes: {x: {joint: hinge, quantity: angle}, w: {joint: hinge, quantity: rate}}
+)yaml";
+  for (const bool space : {false, true})
+    for (const double speed : {0.3, 1., 3.})
+      for (const auto& [tolerance, rebound] : {std::pair("1e-4", 0.05), {"1e-6", 2e-3}}) {
+        const std::string v = number(speed);
+        const History at = move(fill(text, {{"centre", space ? "[0, 0, 0]" : "[0, 0]"},
+                                            {"inertia", space ? "[1, 1, 1]" : "1"},
+                                            {"w", space ? "[0, 0, " + v + "]" : v},
+                                            {"axis", space ? "axis: [0, 0, 1]," : ""},
+                                            {"tolerance", tolerance}}),
+                                Formulation::vm_md);
+        INFO((space ? "space " : "plane ") << speed << " " << tolerance);
+        REQUIRE(at.events.size() == 2);
+        CHECK(at.events[0].t == Approx(0.5 / speed).epsilon(1e-6));
+        CHECK(at.events[1].t - at.events[0].t == Approx(duration(speed)).epsilon(rebound));
+        CHECK(at["w.value"].back() == Approx(-speed).epsilon(rebound));
+      }
+}
+
 // In space, more than a turn away: turns are counted.
 TEST_CASE("stops in space: a hinge after more than one revolution, and a slide on both sides") {
   const Rotated rotation;

@@ -28,6 +28,7 @@ struct Event {
   /// In place of `crosses`, of a stop: how far it is from being hit, and the rate of that. `what` happens whenever it
   /// becomes negative, `what_back` when it becomes positive again; nothing is changed there but that a step ends.
   std::function<std::array<double, 2>(double t, Vec U, Vec V)> gap = {};
+  double width = 0;  ///< of a stop: over which its force sets in
   std::string what_back = {};
   std::shared_ptr<ConstraintSwitch> constraint_switch = {};  ///< that it changes, if any
   bool closes = false;                                       ///< the constraint switch; else it opens it
