@@ -99,7 +99,7 @@ class JointRows {
     at.framed = true;
     at.coordinates.resize(static_cast<std::size_t>(3 + reduced_[place.body].body.coordinates()));
     std::iota(at.coordinates.begin(), at.coordinates.end(), static_cast<int>(first_.at(place.body)));
-    at.x = (plan_.bodies[place.body].spec.rigid ? place.x : Eigen::Vector3d(map.x)).head<2>();
+    at.x = plan_.bodies[place.body].spec.rigid ? Eigen::Vector2d(place.x.head<2>()) : Eigen::Vector2d(map.x);
     at.S = map.S, at.psi = map.psi;
     return at;
   }

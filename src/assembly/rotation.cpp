@@ -31,7 +31,9 @@ Eigen::Vector3d point_of(const Plan& plan, std::size_t j) {
   if (plan.scene.dimension == 3)
     return body.place + body.attitude * (place.map ? Eigen::Vector3d(place.map->x) : place.x);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  point.head<2>() = undeformed_place(body, place.map ? Eigen::Vector3d(place.map->x) : place.x);
+  Eigen::Vector3d x = place.x;
+  if (place.map) x.head<2>() = place.map->x;
+  point.head<2>() = undeformed_place(body, x);
   return point;
 }
 
