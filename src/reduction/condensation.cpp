@@ -85,6 +85,7 @@ Beyond beyond(const MatrixXd& A, const MatrixXd& B) {
   const Eigen::BDCSVD<MatrixXd> main(rest, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const VectorXd& sizes = main.singularValues();
   const Index count = sizes.size() > 0 ? (sizes.array() > 1e-4 * sizes[0]).count() : 0;
+  if (count == 0) return {MatrixXd(A.rows(), 0), MatrixXd(A.cols(), 0), MatrixXd(B.cols(), 0)};
   const MatrixXd from_A =
       scale.asDiagonal() * main.matrixV().leftCols(count) * sizes.head(count).cwiseInverse().asDiagonal();
   return {main.matrixU().leftCols(count), from_A,
