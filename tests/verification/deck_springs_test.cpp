@@ -52,7 +52,7 @@ TEST_CASE("springs of decks: the deflection of a beam with an elastic joint, in 
 }
 
 // A bush of viscosity alone; it made an element without rows, at which reduced and full-order models crashed.
-TEST_CASE("springs of decks: those without stiffness are omitted, with a note") {
+TEST_CASE("springs of decks: those without stiffness are omitted and named") {
   const Scratch scratch;
   const std::string deck = (scratch.path / "jointed.bdf").string(), damped = (scratch.path / "damped.bdf").string();
   std::string text = jointed_deck(1);
