@@ -149,6 +149,9 @@ void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int
                                   "expected *KINEMATIC");
   if (!has_shells(comm, nodes, reading)) {  // it rotates by displacements, as RBE3; places on shells do anyway
     auto& mean = reading.mesh.places[set];
+    mean.labels.clear();  // several ranks may have found one
+    if (reading.rank == 0)
+      for (const Labelled& one : nodes) mean.labels.push_back(one.label);
     mean.weighted = true, mean.weights.assign(mean.labels.size(), 1);
   }
   reading.notices.push_back(
