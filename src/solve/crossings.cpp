@@ -50,7 +50,7 @@ void Crossings::shorten(TS ts, const Seen& now) const {
   double next = 0, most = std::numeric_limits<double>::infinity();
   check(TSGetTimeStep(ts, &next));
   for (std::size_t i = 0; i < events_.size(); ++i)
-    if (events_[i].width > 0 && now.rate[i] < 0)
+    if (now.rate[i] < 0 && now.value[i] > -events_[i].width)
       most = std::min(most, std::max(share * now.value[i], events_[i].width / 2) / -now.rate[i]);
   if (most < next) check(TSSetTimeStep(ts, most));
 }
