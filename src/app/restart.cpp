@@ -50,8 +50,7 @@ void restart_one(const std::string& path, const std::string& scene_file, const s
     if (until && *until < *ended)
       throw InputError(
           fmt::format("--until {}: the run is finished, at t = {}; expected a later time", *until, *ended));
-    if (petsc::first_rank(comm))
-      fmt::print("{} is finished, at t = {} s: nothing is left to simulate (--until T continues it)\n", path, *ended);
+    if (petsc::first_rank(comm)) fmt::print("{} is finished, at t = {} s: nothing is left to simulate\n", path, *ended);
     return;
   }
   output::remove_drafts(comm, folder);
