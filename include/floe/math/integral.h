@@ -5,7 +5,8 @@
 
 namespace floe::math {
 
-/// t -> int_0^t f, to round-off of f's scale: a function of t alone, whatever was asked before.
+/// t -> int_0^t f, to round-off of f's scale where f has at most some hundred periods in a panel: a function of t
+/// alone, whatever was asked before.
 ///
 /// Time is divided into panels of one width; their integrals are kept as they are needed, each by adaptive
 /// Gauss-Kronrod quadrature, which also takes the rest of the last panel, from one break to the next: a jump that no
