@@ -199,7 +199,8 @@ probes: {tip: {at: beam.end}}
   CHECK(loaded(text, Formulation::nlffr, 9, "scene")[2] == Approx(exact).epsilon(2e-3));
 }
 
-// With basis vectors for more than half the dofs, whose products locked where they were not condensed: 28 % off with 10 modes.
+// With basis vectors for more than half the dofs, whose products locked where they were not condensed: 28 % off with 10
+// modes.
 TEST_CASE("second order: a narrow cantilever at its lateral buckling load on many basis vectors") {
   for (const int modes : {6, 8, 10, 12}) {
     const std::string text = fill(R"yaml(
