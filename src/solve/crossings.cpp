@@ -55,6 +55,25 @@ void Crossings::shorten(TS ts, const Seen& now) const {
   if (most < next) check(TSSetTimeStep(ts, most));
 }
 
+/// Whether an adaptive step begins before a stop, ends in it, and is longer than those in which its force sets in: of a
+/// mass that falls the error of the step is estimated as nothing, and the force at its end carries it anywhere.
+bool Crossings::passes_over(double h, const Seen& now) const {
+  if (step_ > 0) return false;
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (events_[i].repeats() && before_.value[i] > 0 && now.value[i] < 0 &&
+        h * std::max(std::abs(before_.rate[i]), std::abs(now.rate[i])) > events_[i].width)
+      return true;
+  return false;
+}
+
+/// The step that was taken last, to be taken again h long.
+void Crossings::take_back(TS ts, double h) {
+  back_ = true;
+  check(TSRollBack(ts));
+  check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));  // the step that is taken back may have come to the end
+  check(TSSetTimeStep(ts, h));
+}
+
 namespace {
 
 /// Events within this share of a step are at one instant.
@@ -222,8 +241,10 @@ void Crossings::after_step(TS ts) {
   check(TS2GetSolution(ts, &step.U, &step.V));
   check(TSGetPrevTime(ts, &step.begin));
   if (searched_ >= 0) return after_step_again(step);
+  back_ = false;
   const double h = step.end - step.begin;
   const Seen now = see(step.end, step.U, step.V);
+  if (passes_over(h, now)) return take_back(ts, h / 2);
   const double first = find_first(step, now);
   if (searched_ < 0) {
     before_ = now;
@@ -241,10 +262,7 @@ void Crossings::after_step(TS ts) {
   }
   target_ = std::max(first, step.begin + 1e-9 * h);
   whole_ = h;
-  back_ = true;
-  check(TSRollBack(ts));
-  check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));  // the step that is taken back may have come to the end
-  check(TSSetTimeStep(ts, target_ - step.begin));
+  take_back(ts, target_ - step.begin);
 }
 
 }  // namespace floe::solve

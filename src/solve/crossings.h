@@ -55,6 +55,8 @@ class Crossings {
   void report(std::size_t event, double t, double rate);
   void go_on(const Step& step);
   void shorten(TS ts, const Seen& now) const;
+  bool passes_over(double h, const Seen& now) const;
+  void take_back(TS ts, double h);
   const std::vector<Event>& events_;
   std::vector<double>& happened_;
   double step_;

@@ -109,6 +109,31 @@ probes: {x: {joint: hinge, quantity: angle}, w: {joint: hinge, quantity: rate}}
       }
 }
 
+// Of a mass that falls, or is thrown up before, the acceleration is constant: the error of a step of any length is
+// estimated as nothing, and its end may be far beyond the stop.
+TEST_CASE("stops: adaptive steps do not pass over a stop that a mass falls back on") {
+  const std::string text = R"yaml(
+gravity: [0, -10]
+bodies: {a: {rigid: {mass: 3, centre: [0, 0], inertia: 1}, initial: {velocity: [0, $v]}}}
+joints: {guide: {type: prismatic, between: [ground, a.centre], axis: [0, 1], limits: {lower: -$gap, stiffness: 1e5, width: 0.01}}}
+motion: {end: $end, step: 1e-3, tolerance: $tolerance}
+probes: {y: {joint: guide, quantity: travel}}
+)yaml";
+  for (const auto& [v, gap] : {std::pair(0., 100.), {0.1, 5.}, {20., 0.8}})
+    for (const auto& [tolerance, rebound] : {std::pair("1e-4", 0.01), {"1e-6", 1e-3}}) {
+      const double speed = std::sqrt(v * v + 2 * 10 * gap), contact = (v + speed) / 10;
+      const History at =
+          move(fill(text,
+                    {{"v", number(v)}, {"gap", number(gap)}, {"end", number(contact + 0.1)}, {"tolerance", tolerance}}),
+               Formulation::vm_md);
+      INFO(v << " " << tolerance);
+      REQUIRE(at.events.size() >= 2);
+      CHECK(at.events[0].t == Approx(contact).epsilon(1e-6));
+      CHECK(at.events[0].speed.value() == Approx(speed).epsilon(1e-5));
+      CHECK(at.events[1].speed.value() == Approx(speed).epsilon(rebound));
+    }
+}
+
 // In space, more than a turn away: turns are counted.
 TEST_CASE("stops in space: a hinge after more than one revolution, and a slide on both sides") {
   const Rotated rotation;
