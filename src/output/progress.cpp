@@ -9,7 +9,7 @@
 namespace floe::output {
 namespace {
 
-constexpr std::chrono::milliseconds before_first{1000}, between{200};
+constexpr std::chrono::milliseconds before_first{1000}, between_lines{200};
 
 std::string duration(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::lround(seconds));
@@ -60,7 +60,7 @@ void Progress::update(double t, std::int64_t steps) {
   if (!stream_) return;
   const auto now = Clock::now();
   if (now < next_) return;
-  next_ = now + between;
+  next_ = now + between_lines;
   shown_ = true;
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   write(stream_, progress_line(start_, t, end_, unit_, steps, elapsed));
