@@ -21,7 +21,7 @@ void read_transform(const InpBlock& block, InpReading& reading) {
       for (std::size_t i = 0; i < x->size(); ++i)
         (i < 3 ? transform.a : transform.b)[static_cast<Eigen::Index>(i % 3)] = (*x)[i];
   reading.transforms.push_back(transform);
-  ignore(block, "except for the directions of *EQUATION", reading);
+  ignore(block, "only *EQUATION uses its directions", reading);
 }
 
 // The number of terms, then those: node, direction, factor, at most four on a line.

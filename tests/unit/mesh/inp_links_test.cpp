@@ -227,7 +227,7 @@ TEST_CASE("*EQUATION between nodes at one point is a link") {
   const auto [others, axis] = free_of(radial, 0);
   CHECK(others);
   CHECK(Eigen::Vector3d::Map(axis.data()).cwiseAbs().isApprox(Eigen::Vector3d(1, 1, 0).normalized(), 1e-12));
-  CHECK_THAT(radial.notices.at(0), Contains("*TRANSFORM is ignored: except for the directions of *EQUATION"));
+  CHECK_THAT(radial.notices.at(0), Contains("*TRANSFORM is ignored: only *EQUATION uses its directions"));
   CHECK_THAT(radial.notices.at(1), Contains("links.inp:38: *EQUATION: 4 equations read as 1 link between nodes at"));
 }
 
