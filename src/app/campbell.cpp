@@ -137,10 +137,9 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
       interruption.check(comm);
     }
     warn(fastest, state, comm, diagram.model);
-    const scene::Scene scene = look ? with_hub(given, *hub) : given;
-    if (request.estimate) estimate_frequencies(given, scene, request.modes, fastest, comm, diagram);
-    check_instability(given, scene, request.modes, comm, diagram);
-    if (!state.empty()) check_rotating_model(given, scene, fastest, request.modes, comm, diagram);
+    if (request.estimate) estimate_frequencies(given, request.modes, fastest, comm, diagram);
+    check_instability(given, request.modes, comm, diagram);
+    if (!state.empty()) check_rotating_model(given, fastest, request.modes, comm, diagram);
   } catch (const std::exception&) {
     fault = std::current_exception();
   }

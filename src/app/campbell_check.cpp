@@ -50,6 +50,26 @@ void follow(const solve::RotatingSystem& rotating, const CampbellDiagram& diagra
   visit_speed(rotating, from, modes, U, point);
 }
 
+OtherPoint in_other_model(const scene::Scene& scene, scene::Formulation formulation, int modes, const CampbellPoint& at,
+                          MPI_Comm comm, const CampbellDiagram& diagram) {
+  OtherPoint other{{at.speed, {}, 0, {}}};
+  CampbellPoint& point = other.point;
+  try {
+    const assembly::Model model = plan_rotation(scene, formulation, comm);
+    other.coordinates = model.coordinates;
+    const PetscInt unknowns = model.coordinates + model.multipliers;
+    if (unknowns > solve::largest_rotating_system)
+      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
+    else
+      follow(assembly::rotating_system(scene, model, diagram.axis), diagram, at, modes, model.U, point);
+  } catch (const InputError& error) {
+    point.fault = error.what();
+  } catch (const RunError& error) {
+    point.fault = error.what();
+  }
+  return other;
+}
+
 namespace {
 
 bool is_unstable(const CampbellPoint& point) {
@@ -59,27 +79,14 @@ bool is_unstable(const CampbellPoint& point) {
 
 }  // namespace
 
-void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
-                       CampbellDiagram& diagram) {
+void check_instability(const scene::Scene& scene, int modes, MPI_Comm comm, CampbellDiagram& diagram) {
   const auto unstable = std::find_if(diagram.points.begin(), diagram.points.end(), is_unstable);
   const auto& bodies = diagram.model.bodies;
   if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation) ||
       std::all_of(bodies.begin(), bodies.end(), [](const assembly::BodyReport& body) { return body.rigid; }))
     return;
   const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
-  CampbellPoint point{unstable->speed, {}, 0, {}};
-  try {
-    CampbellDiagram full{{}, diagram.axis, plan_rotation(scene, scene::Formulation::nlffr, comm), {}};
-    const PetscInt unknowns = full.model.coordinates + full.model.multipliers;
-    if (unknowns > solve::largest_rotating_system)
-      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
-    else
-      follow(assembly::rotating_system(given, full.model, full.axis), diagram, *unstable, modes, full.model.U, point);
-  } catch (const InputError& error) {
-    point.fault = error.what();
-  } catch (const RunError& error) {
-    point.fault = error.what();
-  }
+  const CampbellPoint point = in_other_model(scene, scene::Formulation::nlffr, modes, *unstable, comm, diagram).point;
   if (!point.fault.empty())
     diagram.model.warnings.push_back(
         fmt::format("{} was not checked with the full-order model: {}; compare with more modes", what, point.fault));
@@ -106,9 +113,9 @@ std::vector<double> frequencies_of(const CampbellPoint& point) {
 /// At rest and at the speed; empty: not found.
 using Frequencies = std::array<std::vector<double>, 2>;
 
-Frequencies at_rest_and_at(const scene::Scene& given, assembly::Model& model, const CampbellDiagram& diagram,
+Frequencies at_rest_and_at(const scene::Scene& scene, assembly::Model& model, const CampbellDiagram& diagram,
                            const CampbellPoint& fastest, int modes) {
-  const solve::RotatingSystem rotating = assembly::rotating_system(given, model, diagram.axis);
+  const solve::RotatingSystem rotating = assembly::rotating_system(scene, model, diagram.axis);
   const petsc::VecHandle V = model.system->create_vector(), A = model.system->create_vector();
   const solve::State start = solve::state_of(*model.system, 0, model.U, V, A);
   std::array<CampbellPoint, 2> points;
@@ -124,8 +131,7 @@ Frequencies at_rest_and_at(const scene::Scene& given, assembly::Model& model, co
 
 }  // namespace
 
-void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, double speed, int modes, MPI_Comm comm,
-                          CampbellDiagram& diagram) {
+void check_rotating_model(const scene::Scene& scene, double speed, int modes, MPI_Comm comm, CampbellDiagram& diagram) {
   using scene::Formulation;
   const Formulation formulation = diagram.model.formulation;
   const CampbellPoint* fastest = steady_at(diagram, speed);
@@ -135,9 +141,9 @@ void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, 
   try {
     assembly::Model cfr = plan_rotation(scene, Formulation::cfr, comm);
     if (cfr.coordinates + cfr.multipliers > most_unknowns) return;
-    exact = at_rest_and_at(given, cfr, diagram, *fastest, modes);
+    exact = at_rest_and_at(scene, cfr, diagram, *fastest, modes);
     assembly::Model again = plan_rotation(scene, formulation, comm);
-    mine = at_rest_and_at(given, again, diagram, *fastest, modes);
+    mine = at_rest_and_at(scene, again, diagram, *fastest, modes);
   } catch (const InputError&) {
     return;
   } catch (const RunError&) {

@@ -7,7 +7,6 @@
 
 #include "campbell_check.h"
 #include "floe/assembly/offline.h"
-#include "floe/assembly/rotation.h"
 #include "model_hierarchy.h"
 
 namespace floe::app {
@@ -54,39 +53,20 @@ std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const s
 
 namespace {
 
-/// Before it is built.
+/// Before it is built: of bodies from files there is no full-order model.
 bool fits_at_full_order(const assembly::Model& model) {
   PetscInt dofs = 0;
-  for (const assembly::PlannedBody& body : model.offline->plan.bodies)
+  for (const assembly::PlannedBody& body : model.offline->plan.bodies) {
     if (is_meshed(body.spec)) dofs += body.structure.dofs();
-  return dofs <= solve::largest_rotating_system;
-}
-
-/// The vibrations at a speed of a better model.  @return  why not; empty: found
-std::string find_better(const scene::Scene& given, const scene::Scene& scene, scene::Formulation formulation, int modes,
-                        const CampbellPoint& at, MPI_Comm comm, const CampbellDiagram& diagram, CampbellPoint& point,
-                        PetscInt& coordinates) {
-  point = {at.speed, {}, 0, {}};
-  try {
-    CampbellDiagram second{{}, diagram.axis, plan_rotation(scene, formulation, comm), {}};
-    coordinates = second.model.coordinates;
-    if (coordinates <= diagram.model.coordinates)
-      throw InputError("the larger bases have no more coordinates than the model");
-    if (coordinates + second.model.multipliers > solve::largest_rotating_system)
-      throw InputError("the better model has too many unknowns");
-    follow(assembly::rotating_system(given, second.model, second.axis), diagram, at, modes + 2, second.model.U, point);
-    return point.fault;
-  } catch (const InputError& error) {
-    return error.what();
-  } catch (const RunError& error) {
-    return error.what();
+    if (body.spec.reduced) return false;
   }
+  return dofs > 0 && dofs <= solve::largest_rotating_system;
 }
 
 }  // namespace
 
-void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
-                          CampbellDiagram& diagram) {
+void estimate_frequencies(const scene::Scene& scene, int modes, double speed, MPI_Comm comm, CampbellDiagram& diagram) {
+  using scene::Formulation;
   if (!is_reduced(diagram.model.formulation)) return;
   CampbellEstimate& estimate = diagram.estimate;
   estimate.speed = speed;
@@ -95,25 +75,31 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     estimate.missing = "no steady rotation";
     return;
   }
-  CampbellPoint point;
+  OtherPoint better;
+  const auto compare_with = [&](const scene::Scene& other, Formulation formulation) {
+    better = in_other_model(other, formulation, modes + 2, *at, comm, diagram);
+    estimate.coordinates = better.coordinates;
+    return better.point.fault.empty();
+  };
   if (fits_at_full_order(diagram.model)) {
-    const std::string why =
-        find_better(given, scene, scene::Formulation::nlffr, modes, *at, comm, diagram, point, estimate.coordinates);
-    estimate.full_order = why.empty();
-    if (!why.empty() && estimate.coordinates > diagram.model.coordinates)
+    estimate.full_order = compare_with(scene, Formulation::nlffr);
+    if (!estimate.full_order)
       diagram.model.warnings.push_back(
-          fmt::format("the error of the frequencies is not that to the full-order model: {}; a second reduced model "
-                      "does not see what neither basis has",
-                      why));
+          fmt::format("the frequency errors are estimated by a second reduced model, because the comparison with the "
+                      "full-order model failed: {}; errors that both bases share are not contained",
+                      better.point.fault));
   }
   if (!estimate.full_order) {
     const std::optional<scene::Scene> larger = on_larger_bases(scene);
-    estimate.missing = larger ? find_better(given, *larger, scene::Formulation::vm_md, modes, *at, comm, diagram, point,
-                                            estimate.coordinates)
-                              : "no body has a mesh from which a larger basis could be computed";
+    if (!larger)
+      estimate.missing = "no body has a mesh from which a larger basis could be computed";
+    else if (!compare_with(*larger, Formulation::vm_md))
+      estimate.missing = better.point.fault;
+    else if (better.coordinates <= diagram.model.coordinates)
+      estimate.missing = "the larger bases have no more coordinates than the model";
   }
   if (estimate.missing.empty())
-    estimate.errors = frequency_errors(*at, {point.vibrations.begin(), point.vibrations.end()});
+    estimate.errors = frequency_errors(*at, {better.point.vibrations.begin(), better.point.vibrations.end()});
 }
 
 }  // namespace floe::app

@@ -18,8 +18,7 @@ std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const s
 /// Sets the estimate of a reduced diagram: frequency errors at `speed`, the fastest steady rotation, by a better model
 /// that comes there as the diagram does; or why there is none. It is the full-order model where that has vibrations (up
 /// to solve::largest_rotating_system unknowns, no bodies from files), else one on larger bases (on_larger_bases).
-/// @param given, scene  what the user wrote, and with a probe of the hub. Collective.
-void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
-                          CampbellDiagram& diagram);
+/// Collective.
+void estimate_frequencies(const scene::Scene& scene, int modes, double speed, MPI_Comm comm, CampbellDiagram& diagram);
 
 }  // namespace floe::app
