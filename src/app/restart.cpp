@@ -12,22 +12,29 @@
 namespace floe::app {
 namespace {
 
+std::optional<double> ended_at(const nlohmann::ordered_json& summary, double end) {
+  using nlohmann::ordered_json;
+  if (!summary.is_object() || summary.value("status", "") != "finished") return {};
+  const ordered_json integration = summary.value("integration", ordered_json::object()),
+                     events = summary.value("events", ordered_json::array());
+  if (!integration.contains("reached")) return {};
+  const double reached = integration["reached"];
+  const bool stopped =
+      std::any_of(events.begin(), events.end(), [](const auto& event) { return event.value("what", "") == "stop"; });
+  return stopped || reached >= end ? std::optional(reached) : std::nullopt;
+}
+
 /// Where a finished run ended, at the end of the motion or by an event that stops it; none: something is left of it.
 /// Collective.
 std::optional<double> ended_at(const output::ResultFolder& folder, double end, MPI_Comm comm) {
   std::optional<double> ended;
   petsc::agree(comm, [&] {
-    using nlohmann::ordered_json;
     std::ifstream file(folder.summary());
-    const ordered_json summary = ordered_json::parse(file, nullptr, false);
-    if (!summary.is_object() || summary.value("status", "") != "finished") return;
-    const ordered_json integration = summary.value("integration", ordered_json::object()),
-                       events = summary.value("events", ordered_json::array());
-    if (!integration.contains("reached")) return;
-    const double reached = integration["reached"];
-    const bool stopped =
-        std::any_of(events.begin(), events.end(), [](const auto& event) { return event.value("what", "") == "stop"; });
-    if (stopped || reached >= end) ended = reached;
+    try {
+      ended = ended_at(nlohmann::ordered_json::parse(file, nullptr, false), end);
+    } catch (const nlohmann::json::exception&) {
+      throw InputError(folder.summary().string() + ": is damaged; expected that of the run");
+    }
   });
   return ended;
 }
