@@ -226,6 +226,14 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
         fmt::format("body {}: the file stores damping.mass for the body with its joints to the ground; joints to the "
                     "other {} bodies of the scene are not included",
                     body.spec.name, scene.bodies.size() - 1));
+  if (scene.bodies[index].frames > 1)
+    warnings.push_back(fmt::format("body {}: frames: {} is not used: the file has the whole body in one frame", name,
+                                   scene.bodies[index].frames));
+  for (const Joint& joint : part.joints)
+    if (joint.kind == Joint::Kind::support)
+      warnings.push_back(
+          fmt::format("body {}: its basis vectors satisfy support {}, which a scene cannot have for a body from a file",
+                      name, joint.name));
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       plan, Formulation::vm_md,

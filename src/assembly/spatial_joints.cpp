@@ -189,6 +189,11 @@ void SpatialAssembly::refuse_loose_supports() const {
       continue;
     const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
     const Body& body = plan_.bodies[place.body].spec;
+    if (body.reduced)
+      throw InputError(
+          fmt::format("{}: supports hold bodies with a mesh, and body {} comes from a file; expected other joints, or "
+                      "the body's mesh",
+                      joint.where.text(), body.name));
     if (body.frame.given)
       throw InputError(
           fmt::format("{}: body {} has a frame of its own, and supports hold bodies without one; expected "

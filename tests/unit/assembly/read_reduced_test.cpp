@@ -192,6 +192,26 @@ TEST_CASE("a body that is reduced already is not reduced again") {
                     Catch::EndsWith("bodies.b.reduced: is reduced already; expected a body with a mesh"));
 }
 
+TEST_CASE("a body that is reduced under supports or split into frames is reported") {
+  const testing::Folder folder;
+  const std::string path = (folder.path / "b.h5").string(), held = R"yaml(
+joints:
+  j: {type: support, between: [ground, b.left], hold: [x, y, z]}
+  k: {type: support, between: [ground, b.right], hold: [z]}
+)yaml";
+  std::vector<std::string> warnings;
+  assembly::reduce_body(
+      scene::parse_scene(
+          testing::one_body(testing::plate, testing::thickness + testing::metal + "    frames: 2\n", held), "s.yaml"),
+      "b", PETSC_COMM_WORLD, path, true, warnings);
+  REQUIRE(warnings.size() == 3);
+  CHECK(warnings[0] == "body b: frames: 2 is not used: the file has the whole body in one frame");
+  CHECK(warnings[2] == "body b: its basis vectors satisfy support k, which a scene cannot have for a body from a file");
+  CHECK_THROWS_WITH(assembly::build(scene::parse_scene("bodies: {b: {reduced: " + path + "}}\n" + held, "s.yaml"),
+                                    scene::Formulation::vm_md, PETSC_COMM_WORLD),
+                    Catch::Contains("supports hold bodies with a mesh, and body b comes from a file"));
+}
+
 TEST_CASE("the vm of a file needs its modes before its derivatives") {
   const Files files;
   const std::string path = (files.folder.path / "beam.h5").string();
