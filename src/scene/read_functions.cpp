@@ -96,6 +96,17 @@ math::Table read_columns(Document& document, const Where& where, const std::stri
   return table;
 }
 
+/// The last value becomes the first one, from which round-off may part it (sines of a spreadsheet).
+void close_period(Document& document, const Where& where, math::Table& table) {
+  constexpr double round_off = 1e-12;
+  double most = 0;
+  for (const double value : table.y) most = std::max(most, std::abs(value));
+  if (!(std::abs(table.y.back() - table.y.front()) <= round_off * most))
+    document.fault(where, fmt::format("the first value is {} and the last one {}", table.y.front(), table.y.back()),
+                   "equal values at both ends of a period");
+  table.y.back() = table.y.front();
+}
+
 math::Table read_table(Document& document, const Value& value) {
   using Interpolation = math::Table::Interpolation;
   Reading reading(document, value, "table");
@@ -120,10 +131,7 @@ math::Table read_table(Document& document, const Value& value) {
   table.periodic = reading.flag("periodic");
   if (document.fault_count() == before && table.x.size() < 2)
     document.fault(value.where, fmt::format("has {} points", table.x.size()), "at least two");
-  if (document.fault_count() == before && table.periodic && table.y.front() != table.y.back())
-    document.fault(reading.where("periodic"),
-                   fmt::format("the first value is {} and the last one {}", table.y.front(), table.y.back()),
-                   "equal values at both ends of a period");
+  if (document.fault_count() == before && table.periodic) close_period(document, reading.where("periodic"), table);
   if (document.fault_count() != before) table = {{0, 1}, {0, 0}};
   return table;
 }

@@ -269,6 +269,19 @@ probes: {tip: {at: rod.end}}
   CHECK(accuracy_of("0.01").total);
 }
 
+TEST_CASE("periodic tables whose ends differ by round-off are closed") {
+  const auto table = [](const std::string& last) {
+    return parse_scene(
+        "functions: {f: {t: [0, 1, 2], values: [0, 3, " + last +
+            "], periodic: true}}\n"
+            "bodies: {b: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 1}}, section: {EA: 1, EI: 1, rhoA: 1}}}\n"
+            "loads: {l: {type: force, at: b.end, force: [0, f(t)]}}\nmotion: {end: 2, step: 0.1}\n",
+        "s.yaml");
+  };
+  CHECK(table("-7e-16").loads[0].force[1](2) == 0);
+  CHECK_THROWS_WITH(table("1e-9"), Catch::Contains("expected equal values at both ends of a period"));
+}
+
 TEST_CASE("functions of a scene: formulas and tables, from the scene and from a file") {
   const std::filesystem::path scratch =
       std::filesystem::temp_directory_path() / fmt::format("floe-functions-{}", getpid());
