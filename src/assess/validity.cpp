@@ -135,9 +135,10 @@ std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI
   return all;
 }
 
+/// Derivatives that are not kept are within the span of the others.
 bool stretches(const BodyReport& body) {
   return std::any_of(body.origins.begin(), body.origins.end(), [](const reduction::ColumnOrigin& origin) {
-    return origin.kept && origin.kind == reduction::ColumnOrigin::Kind::derivative;
+    return origin.kind == reduction::ColumnOrigin::Kind::derivative;
   });
 }
 
