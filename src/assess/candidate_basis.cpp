@@ -77,10 +77,10 @@ const ReducedBody& CandidateBasis::Parts::reduced_body(std::size_t b, const std:
   fem::FieldRows candidates =
       fem::gather(plan.structure, static_cast<Eigen::Index>(some.size()),
                   [&](Eigen::Index j, double* local) { plan.structure.exchange.gather(some[j], local); });
-  project_onto(plan,
-               std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
-                   plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance)),
-               *source.statics, source.stage.generators.modes, one);
+  auto basis = std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
+      plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance));
+  reduction::keep_without_mass(plan.structure, some, *basis);
+  project_onto(plan, std::move(basis), *source.statics, source.stage.generators.modes, one);
   one.report.seconds_projection = MPI_Wtime() - start;
   one.statics = source.statics;
   join_start(plan, one);

@@ -158,29 +158,28 @@ bool few_shells(const fem::Structure& structure, std::size_t columns) {
   return shells != 0;
 }
 
-/// What is left of dropped derivatives without their parts along the basis, where it has no mass: drilling rotations of
-/// shells. In the inner product of M it is nothing, but without it the body locks. Collective.
-Columns without_mass(const fem::Structure& structure, const Basis& basis, const Columns& derivatives) {
+}  // namespace
+
+void keep_without_mass(const fem::Structure& structure, const std::vector<Vec>& columns, Basis& basis) {
   constexpr double of_mass = 1e-6, of_displacements = 1e-4;  // less of the rotations is round-off
+  if (!few_shells(structure, columns.size())) return;
   const double length = fem::extent(structure);
   Columns all;
   Eigen::VectorXd q(basis.columns);
-  const std::size_t first = basis.origins.size() - derivatives.size();
-  for (std::size_t p = 0; p < derivatives.size(); ++p) {
-    const ColumnOrigin& origin = basis.origins[first + p];
-    if (origin.kept || origin.new_part > of_mass || !(basis.norms[static_cast<Eigen::Index>(first + p)] > 0)) continue;
-    petsc::VecHandle left = copy(derivatives[p]);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const ColumnOrigin& origin = basis.origins[i];
+    if (origin.kind != ColumnOrigin::Kind::derivative || origin.kept || origin.new_part > of_mass) continue;
+    if (!(basis.norms[static_cast<Eigen::Index>(i)] > 0)) continue;
+    petsc::VecHandle left = copy(columns[i]);
     check(BVDotVec(basis.V, left, q.data()));
     check(BVMultVec(basis.V, -1, 1, left, q.data()));
     const double rotations = norms_of(structure, left)[1];
-    if (!(length * rotations > of_displacements * norms_of(structure, derivatives[p])[0])) continue;
+    if (!(length * rotations > of_displacements * norms_of(structure, columns[i])[0])) continue;
     check(VecScale(left, 1 / rotations));
     all.push_back(std::move(left));
   }
-  return all.empty() ? Columns{} : independent(all);
+  if (!all.empty()) basis.without_mass = independent(all);
 }
-
-}  // namespace
 
 std::string derivative_label(const Generators& generators, int i, int j) {
   const auto name = [&](int field) {
@@ -233,11 +232,11 @@ Basis basis_of(const fem::Structure& structure, const Generators& generators, De
         const auto at = static_cast<std::size_t>(j);
         structure.exchange.gather(at < first ? taken[at] : derivatives.columns[at - first].get(), local);
       });
-  const bool may_fill = few_shells(structure, first + derivatives.columns.size());
-  if (!may_fill) derivatives.columns.clear();  // their memory
+  if (!few_shells(structure, first + derivatives.columns.size())) derivatives.columns.clear();  // their memory
   origins.insert(origins.end(), derivatives.origins.begin(), derivatives.origins.end());
   Basis basis = orthonormal_basis(structure, std::move(candidates), std::move(origins), tolerance);
-  if (may_fill) basis.without_mass = without_mass(structure, basis, derivatives.columns);
+  taken.insert(taken.end(), derivatives.columns.begin(), derivatives.columns.end());
+  keep_without_mass(structure, taken, basis);
   if (left_out.empty())
     for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
   return basis;

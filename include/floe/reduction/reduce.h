@@ -59,6 +59,12 @@ std::string derivative_label(const Generators& generators, int i, int j);
 Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
                double tolerance, const std::vector<char>& left_out = {});
 
+/// Keeps beside a basis of shells (Basis::without_mass) what is left of dropped derivatives without their parts along
+/// it, where they have no mass: drilling rotations. In the inner product of M it is nothing, but without it the body
+/// locks. Where there are more nodes than columns nothing is left. Collective.
+/// @param columns  that the basis was made of, the first of its origins
+void keep_without_mass(const fem::Structure& structure, const std::vector<Vec>& columns, Basis& basis);
+
 /// M-norm of a field. Collective.
 double mass_norm(Mat M, Vec field);
 
