@@ -221,10 +221,11 @@ void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std
     if (suspect(columns[i])) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * whole[i];
 }
 
-/// Drops columns of which little was new and that deform the body much less than any other one: of directions that the
-/// others exhaust (a line has one elastic motion along itself for each element) orthonormalisation has left the motion
-/// of the frame, which is no deformation, and the frame and that coordinate would move alike.
-void drop_rigid(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns) {
+/// Drops columns of which little was new and that deform the body much less than any other one. Where the others span
+/// all elastic motions of a direction (a line has as many along itself as elements), round-off has left a rigid motion
+/// of them, which the frame has already: with both, the accelerations would be undetermined. Collective.
+void drop_rigid(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns,
+                std::vector<ColumnOrigin>& origins) {
   constexpr double of_least = 1e-2;  // of the least square of a frequency
   const auto suspect = [](const Column& column) { return column.kept && column.share < weak; };
   if (std::none_of(columns.begin(), columns.end(), suspect)) return;
@@ -232,8 +233,11 @@ void drop_rigid(const fem::Structure& structure, const fem::FieldRows& X, std::v
   double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < X.cols(); ++i)
     if (columns[i].kept && !suspect(columns[i])) least = std::min(least, energies[i]);
-  for (Eigen::Index i = 0; i < X.cols(); ++i)
-    if (suspect(columns[i])) columns[i].kept = !(energies[i] < of_least * least);
+  for (Eigen::Index i = 0; i < X.cols(); ++i) {
+    if (!suspect(columns[i]) || !(energies[i] < of_least * least)) continue;
+    columns[i].kept = false;
+    origins[static_cast<std::size_t>(i)].dropped = "its new part is a rigid motion";
+  }
 }
 
 /// How many columns can be independent: dofs with mass in which some column moves, and no more than those with mass
@@ -300,7 +304,7 @@ Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidat
   basis.origins = std::move(origins);
   std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
   drop_drilling(structure, candidates, columns);
-  drop_rigid(structure, candidates, columns);
+  drop_rigid(structure, candidates, columns, basis.origins);
   drop_surplus(most_independent(structure, candidates), columns, basis.origins);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     basis.origins[i].new_part = columns[i].share;
