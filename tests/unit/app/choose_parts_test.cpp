@@ -73,6 +73,31 @@ TEST_CASE("accuracy: a beam that hardly bends beside its rotation becomes rigid;
   CHECK(worst_error(move(linear.scene, again, 0, PETSC_COMM_WORLD, std::nullopt, plan).series, first) < 1e-9);
 }
 
+// Pieces of two by two shells have more candidates than nodes: derivatives are dropped that have drilling rotations of
+// their own, without which the pieces lock.
+TEST_CASE("accuracy: the richest model of coarse pieces of a plate moves as the full-order model") {
+  const scene::Scene scene = scene::parse_scene(R"yaml(
+gravity: [0, 1, -9.81]
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.4, 0], elements: [8, 2]}}
+    section: {thickness: 0.01}
+    material: {E: 2e8, nu: 0.3, rho: 1000}
+    frames: 4
+    reduction: {modes: 5, interface_degree: 2}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+motion: {end: 0.3, step: 5e-3}
+probes: {tip: {at: plate.right}, bend: {at: plate.right, quantity: rotation}}
+)yaml",
+                                                "scene.yaml");
+  const assess::CandidateBasis candidates(scene, PETSC_COMM_SELF);
+  assembly::Model richest = candidates.model(candidates.whole());
+  RunPlan plan;
+  plan.quiet = true, plan.check_range = false;
+  const Series found = move(scene, richest, 0, PETSC_COMM_SELF, std::nullopt, plan).series;
+  CHECK(worst_error(found, moved(scene, Formulation::nlffr)) < 0.01);
+}
+
 TEST_CASE("accuracy: what cannot be estimated is refused") {
   std::string text = beam("0.5");
   text = text.substr(0, text.find("probes:"));
