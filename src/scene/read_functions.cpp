@@ -96,7 +96,7 @@ math::Table read_columns(Document& document, const Where& where, const std::stri
   return table;
 }
 
-/// The last value becomes the first one, from which round-off may part it (sines of a spreadsheet).
+/// Sets the last value to the first one, from which it may differ by round-off (a sine from a spreadsheet).
 void close_period(Document& document, const Where& where, math::Table& table) {
   constexpr double round_off = 1e-12;
   double most = 0;

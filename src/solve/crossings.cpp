@@ -55,8 +55,9 @@ void Crossings::shorten(TS ts, const Seen& now) const {
   if (most < next) check(TSSetTimeStep(ts, most));
 }
 
-/// Whether an adaptive step begins before a stop, ends in it, and is longer than those in which its force sets in: of a
-/// mass that falls the error of the step is estimated as nothing, and the force at its end carries it anywhere.
+/// Whether an adaptive step begins before a stop, ends in it, and moves further than the width over which its force
+/// sets in. While a mass falls, its acceleration is constant and the estimated error of a step of any length is zero;
+/// the force at the end of such a step would give it an arbitrary velocity.
 bool Crossings::passes_over(double h, const Seen& now) const {
   if (step_ > 0) return false;
   for (std::size_t i = 0; i < events_.size(); ++i)

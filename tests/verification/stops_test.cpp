@@ -109,8 +109,8 @@ probes: {x: {joint: hinge, quantity: angle}, w: {joint: hinge, quantity: rate}}
       }
 }
 
-// Of a mass that falls, or is thrown up before, the acceleration is constant: the error of a step of any length is
-// estimated as nothing, and its end may be far beyond the stop.
+// While a mass falls, its acceleration is constant: the estimated error of a step of any length is zero, and a step
+// could end far beyond the stop.
 TEST_CASE("stops: adaptive steps do not pass over a stop that a mass falls back on") {
   const std::string text = R"yaml(
 gravity: [0, -10]
