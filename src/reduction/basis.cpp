@@ -50,6 +50,8 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& G, const Eigen::VectorXd& norms) {
 struct Column {
   double share = 1;  ///< that those before it lack
   bool kept = true;
+  /// Whether it may be round-off of those before it.
+  bool suspect() const { return kept && share < weak; }
 };
 
 /// One pass: the columns of X T are orthonormal, but for weak ones, which are left as they are without their parts
@@ -190,9 +192,9 @@ double shells_limit(const fem::Structure& structure) {
 /// Drops columns of which little was new, whose energy is that of shells, and whose shells by themselves are stiffer
 /// for their mass than anything that their mesh can do: orthonormalisation has left of them round-off of drilling
 /// rotations, which have stiffness and no mass, and in a reduced K everything else would be round-off of theirs.
-void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns) {
-  const auto suspect = [](const Column& column) { return column.kept && column.share < weak; };
-  if (std::none_of(columns.begin(), columns.end(), suspect)) return;
+/// @param energies  x'K x of each column. Collective.
+void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, const Eigen::VectorXd& energies,
+                   std::vector<Column>& columns) {
   const Eigen::Index k = X.cols();
   const fem::DofRanges ranges = fem::dof_ranges(structure, X);
   Eigen::ArrayXXd sums = Eigen::ArrayXXd::Zero(k, 2);  // of each column: of K and of M
@@ -215,29 +217,35 @@ void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std
   double limit = shells_limit(structure);
   MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  MPI_Bcast(sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
   if (limit == 0) return;
-  const Eigen::VectorXd whole = fem::ElementStiffness(structure).gram(X).diagonal();
   for (Eigen::Index i = 0; i < k; ++i)
-    if (suspect(columns[i])) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * whole[i];
+    if (columns[i].suspect()) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * energies[i];
 }
 
 /// Drops columns of which little was new and that deform the body much less than any other one. Where the others span
 /// all elastic motions of a direction (a line has as many along itself as elements), round-off has left a rigid motion
-/// of them, which the frame has already: with both, the accelerations would be undetermined. Collective.
-void drop_rigid(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns,
-                std::vector<ColumnOrigin>& origins) {
+/// of them, which the frame has already: with both, the accelerations would be undetermined.
+void drop_rigid(const Eigen::VectorXd& energies, std::vector<Column>& columns, std::vector<ColumnOrigin>& origins) {
   constexpr double of_least = 1e-2;  // of the least square of a frequency
-  const auto suspect = [](const Column& column) { return column.kept && column.share < weak; };
-  if (std::none_of(columns.begin(), columns.end(), suspect)) return;
-  const Eigen::VectorXd energies = fem::ElementStiffness(structure).gram(X).diagonal();
   double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < X.cols(); ++i)
-    if (columns[i].kept && !suspect(columns[i])) least = std::min(least, energies[i]);
-  for (Eigen::Index i = 0; i < X.cols(); ++i) {
-    if (!suspect(columns[i]) || !(energies[i] < of_least * least)) continue;
+  for (Eigen::Index i = 0; i < energies.size(); ++i)
+    if (columns[i].kept && !columns[i].suspect()) least = std::min(least, energies[i]);
+  for (Eigen::Index i = 0; i < energies.size(); ++i) {
+    if (!columns[i].suspect() || !(energies[i] < of_least * least)) continue;
     columns[i].kept = false;
     origins[static_cast<std::size_t>(i)].dropped = "its new part is a rigid motion";
   }
+}
+
+/// Drops columns that are round-off of those before them, by their energies. Collective.
+void drop_round_off(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns,
+                    std::vector<ColumnOrigin>& origins) {
+  if (std::none_of(columns.begin(), columns.end(), [](const Column& column) { return column.suspect(); })) return;
+  Eigen::VectorXd energies = fem::ElementStiffness(structure).gram(X).diagonal();
+  MPI_Bcast(energies.data(), static_cast<int>(energies.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
+  drop_drilling(structure, X, energies, columns);
+  drop_rigid(energies, columns, origins);
 }
 
 /// How many columns can be independent: dofs with mass in which some column moves, and no more than those with mass
@@ -303,8 +311,7 @@ Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidat
   Basis basis;
   basis.origins = std::move(origins);
   std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
-  drop_drilling(structure, candidates, columns);
-  drop_rigid(structure, candidates, columns, basis.origins);
+  drop_round_off(structure, candidates, columns, basis.origins);
   drop_surplus(most_independent(structure, candidates), columns, basis.origins);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     basis.origins[i].new_part = columns[i].share;

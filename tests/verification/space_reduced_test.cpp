@@ -204,27 +204,29 @@ probes: {tip: {at: b.end}}
 // The basis vectors span all ten elastic motions of the line along itself; what round-off leaves of a further one is a
 // rigid motion, which the frame has already. Newton's method diverged in the first steps.
 TEST_CASE("bases that span all elastic motions of a line along itself have no rigid motion") {
-  const auto tip = [](int modes, Formulation formulation) {
+  const auto tip = [](bool oblique, int modes, Formulation formulation) {
     return move(fill(R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
   rod:
-    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 10}}
+    mesh: {line: {from: [0, 0, 0], to: $end, elements: 10}}
     section: {shape: rectangle, width: 0.012, height: 0.006, orientation: [0, 1, 0]}
     material: {E: 3e9, nu: 0.35, rho: 1200}
     reduction: {modes: $modes}
     damping: {stiffness: 5e-4}
-  bob: {rigid: {mass: 0.05, centre: [1.02, 0.01, 0], inertia: [2e-5, 2e-5, 2e-5]}}
+  bob: {rigid: {mass: 0.05, centre: $end, inertia: [2e-5, 2e-5, 2e-5]}}
 joints:
   ball: {type: spherical, between: [ground, rod.start]}
-  weld: {type: fixed, between: [rod.end, {body: bob, node: [1, 0, 0]}]}
+  weld: {type: fixed, between: [rod.end, bob.centre]}
 motion: {end: 0.4, step: 2e-3}
 probes: {tip: {at: rod.end}}
 )yaml",
-                     {{"modes", std::to_string(modes)}}),
+                     {{"modes", std::to_string(modes)}, {"end", oblique ? "[0.6, 0.48, 0.64]" : "[1, 0, 0]"}}),
                 formulation)["tip.z"]
         .back();
   };
-  const double whole = tip(6, Formulation::nlffr);
-  for (const int modes : {6, 8}) CHECK(tip(modes, Formulation::vm_md) == Approx(whole).epsilon(1e-6));
+  for (const bool oblique : {false, true}) {
+    const double whole = tip(oblique, 6, Formulation::nlffr);
+    for (const int modes : {6, 8, 10}) CHECK(tip(oblique, modes, Formulation::vm_md) == Approx(whole).epsilon(1e-6));
+  }
 }
