@@ -135,10 +135,13 @@ std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI
   return all;
 }
 
-/// Derivatives that are not kept are within the span of the others.
+/// Whether the basis has derivatives, of its own or within the span of the other vectors; those that are zero have no
+/// new part at all.
 bool stretches(const BodyReport& body) {
+  constexpr double within = 1e-4;  // of a derivative's norm is outside the span
   return std::any_of(body.origins.begin(), body.origins.end(), [](const reduction::ColumnOrigin& origin) {
-    return origin.kind == reduction::ColumnOrigin::Kind::derivative;
+    return origin.kind == reduction::ColumnOrigin::Kind::derivative &&
+           (origin.kept || (origin.new_part > 0 && origin.new_part < within));
   });
 }
 

@@ -96,6 +96,25 @@ TEST_CASE("validity: a linear elastic force has no foreshortening, and modes alo
 }
 
 // Tension strains a bar linearly: no locking, whatever its ratio to the bending energy.
+// Clamped at both ends and of two elements: three modes are all there is, and derivatives are within their span.
+TEST_CASE("validity: derivatives within the span of the modes are not missing") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}
+    section: {EA: 1e5, EI: 1, rhoA: 1e-2}
+    reduction: {modes: 3, derivatives: $derivatives}
+joints:
+  a: {type: fixed, between: [ground, beam.start]}
+  b: {type: fixed, between: [ground, beam.end]}
+loads: {f: {type: force, at: beam.middle, force: [0, "20*smooth(t, 0, 1)"]}}
+motion: {end: 1, step: 2e-2}
+probes: {middle: {at: beam.middle}}
+)yaml";
+  CHECK(said(judged(fill(text, {{"derivatives", "none"}}), Formulation::vm_md)).count("membrane"));
+  CHECK_FALSE(said(judged(fill(text, {{"derivatives", "all"}}), Formulation::vm_md)).count("membrane"));
+}
+
 TEST_CASE("validity: tension of a body of modes alone is no membrane locking") {
   std::string text = bent("pinned", "100");
   const std::string across = "force: [0, \"100*(1 - cos(pi*t/2))/2\"]";
