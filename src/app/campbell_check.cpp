@@ -59,7 +59,8 @@ OtherPoint in_other_model(const scene::Scene& scene, scene::Formulation formulat
     other.coordinates = model.coordinates;
     const PetscInt unknowns = model.coordinates + model.multipliers;
     if (unknowns > solve::largest_rotating_system)
-      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
+      point.fault =
+          fmt::format("the model for comparison has {} unknowns (limit {})", unknowns, solve::largest_rotating_system);
     else
       follow(assembly::rotating_system(scene, model, diagram.axis), diagram, at, modes, model.U, point);
   } catch (const InputError& error) {

@@ -81,13 +81,10 @@ void estimate_frequencies(const scene::Scene& scene, int modes, double speed, MP
     estimate.coordinates = better.coordinates;
     return better.point.fault.empty();
   };
+  std::string failed;  // at full order
   if (fits_at_full_order(diagram.model)) {
     estimate.full_order = compare_with(scene, Formulation::nlffr);
-    if (!estimate.full_order)
-      diagram.model.warnings.push_back(
-          fmt::format("the frequency errors are estimated by a second reduced model, because the comparison with the "
-                      "full-order model failed: {}; errors that both bases share are not contained",
-                      better.point.fault));
+    failed = better.point.fault;
   }
   if (!estimate.full_order) {
     const std::optional<scene::Scene> larger = on_larger_bases(scene);
@@ -98,6 +95,12 @@ void estimate_frequencies(const scene::Scene& scene, int modes, double speed, MP
     else if (better.coordinates <= diagram.model.coordinates)
       estimate.missing = "the larger bases have no more coordinates than the model";
   }
+  if (!failed.empty() && estimate.missing.empty())
+    diagram.model.warnings.push_back(
+        fmt::format("the frequency errors are estimated by a second reduced model, because the comparison with the "
+                    "full-order model failed: {}; errors that both bases share are not contained",
+                    failed));
+  if (!failed.empty() && !estimate.missing.empty()) estimate.missing += "; at full order: " + failed;
   if (estimate.missing.empty())
     estimate.errors = frequency_errors(*at, {better.point.vibrations.begin(), better.point.vibrations.end()});
 }

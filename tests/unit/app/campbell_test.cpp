@@ -7,6 +7,8 @@
 
 #include "../../../src/app/campbell_tracks.h"
 #include "command_tests.h"
+#include "floe/assembly/reduced_bodies_file.h"
+#include "spatial_scene.h"
 
 using namespace floe::app;
 
@@ -173,6 +175,24 @@ joints:
 )yaml";
 
 }  // namespace
+
+// A second beam like the first, from a file: there is no full-order model.
+TEST_CASE("campbell: beside bodies from files frequencies are compared with a second reduced model") {
+  const floe::testing::Folder folder;
+  const std::string path = (folder.path / "beam.h5").string();
+  std::vector<std::string> warnings;
+  assembly::reduce_body(scene::parse_scene(planar(), "scene"), "beam", PETSC_COMM_WORLD, path, true, warnings);
+  std::string text = planar();
+  text.insert(text.find("joints:"), "  other: {reduced: " + path + ", initial: {angle: pi}}\n");
+  text.replace(text.rfind("}\n"), 2, ", weld: {type: fixed, between: [beam.start, other.start]}}\n");
+  const CampbellDiagram found = diagram(text, Formulation::vm_md, at("0,2", 2, true));
+  CHECK(found.estimate.missing == "");
+  CHECK_FALSE(found.estimate.full_order);
+  CHECK(found.estimate.coordinates > found.model.coordinates);
+  REQUIRE(found.estimate.errors.size() == 2);
+  for (const FrequencyError& one : found.estimate.errors) CHECK(one.relative < 1e-3);
+  for (const std::string& warning : found.model.warnings) CHECK(warning.find("full-order") == std::string::npos);
+}
 
 TEST_CASE("campbell: estimate and comparison with cfr follow the branch of the diagram") {
   const CampbellDiagram found = diagram(hinged_rod, Formulation::vm_md, at("1,5,9", 3, true));
