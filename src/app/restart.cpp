@@ -14,7 +14,7 @@ namespace {
 
 std::optional<double> ended_at(const nlohmann::ordered_json& summary, double end) {
   using nlohmann::ordered_json;
-  if (!summary.is_object() || summary.value("status", "") != "finished") return {};
+  if (summary.at("status") != "finished") return {};
   const ordered_json integration = summary.value("integration", ordered_json::object()),
                      events = summary.value("events", ordered_json::array());
   if (!integration.contains("reached")) return {};
@@ -30,10 +30,11 @@ std::optional<double> ended_at(const output::ResultFolder& folder, double end, M
   std::optional<double> ended;
   petsc::agree(comm, [&] {
     std::ifstream file(folder.summary());
+    if (!file) return;
     try {
-      ended = ended_at(nlohmann::ordered_json::parse(file, nullptr, false), end);
+      ended = ended_at(nlohmann::ordered_json::parse(file), end);
     } catch (const nlohmann::json::exception&) {
-      throw InputError(folder.summary().string() + ": is damaged; expected that of the run");
+      throw InputError(folder.summary().string() + ": is damaged; expected the summary that the run wrote, or no file");
     }
   });
   return ended;

@@ -239,11 +239,12 @@ def finished(floe, folder):
     assert before == [(folder / "out" / name).read_bytes() for name in ("summary.json", "result.h5", "probes.csv")]
     with h5py.File(folder / "out/result.h5") as file:
         assert "estimate" in file
-    damaged = json.loads(before[0])
-    damaged["integration"]["reached"] = "the end"
-    (folder / "out/summary.json").write_text(json.dumps(damaged))
-    done = run("--restart", "out")
-    assert done.returncode == 2 and "summary.json: is damaged" in done.stderr, done.stderr
+    wrong = json.loads(before[0])
+    wrong["integration"]["reached"] = "the end"
+    for damaged in (json.dumps(wrong).encode(), before[0][: len(before[0]) // 2], b"[]"):
+        (folder / "out/summary.json").write_bytes(damaged)
+        done = run("--restart", "out")
+        assert done.returncode == 2 and "summary.json: is damaged" in done.stderr, done.stderr
     (folder / "out/summary.json").write_bytes(before[0])
     assert run("--restart", "out", "--until", str(1.2 * end)).returncode == 0
     with h5py.File(folder / "out/result.h5") as file:
