@@ -232,8 +232,8 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   for (const Joint& joint : part.joints)
     if (joint.kind == Joint::Kind::support)
       warnings.push_back(
-          fmt::format("body {}: its basis vectors satisfy support {}, which a scene cannot have for a body from a file",
-                      name, joint.name));
+          fmt::format("body {}: its basis vectors satisfy support {}, which scenes that use the file cannot have", name,
+                      joint.name));
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       plan, Formulation::vm_md,

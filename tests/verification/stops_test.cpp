@@ -116,16 +116,19 @@ TEST_CASE("stops: adaptive steps do not pass over a stop that a mass falls back 
 gravity: [0, -10]
 bodies: {a: {rigid: {mass: 3, centre: [0, 0], inertia: 1}, initial: {velocity: [0, $v]}}}
 joints: {guide: {type: prismatic, between: [ground, a.centre], axis: [0, 1], limits: {lower: -$gap, stiffness: 1e5, width: 0.01}}}
-motion: {end: $end, step: 1e-3, tolerance: $tolerance}
+motion: {end: $end, step: $step, tolerance: $tolerance}
 probes: {y: {joint: guide, quantity: travel}}
 )yaml";
-  for (const auto& [v, gap] : {std::pair(0., 100.), {0.1, 5.}, {20., 0.8}})
+  for (const auto& [v, gap, step] :
+       {std::tuple(0., 100., "1e-3"), {0.1, 5., "1e-3"}, {20., 0.8, "1e-3"}, {1., 0., "0.25"}})
     for (const auto& [tolerance, rebound] : {std::pair("1e-4", 0.01), {"1e-6", 1e-3}}) {
       const double speed = std::sqrt(v * v + 2 * 10 * gap), contact = (v + speed) / 10;
-      const History at =
-          move(fill(text,
-                    {{"v", number(v)}, {"gap", number(gap)}, {"end", number(contact + 0.1)}, {"tolerance", tolerance}}),
-               Formulation::vm_md);
+      const History at = move(fill(text, {{"v", number(v)},
+                                          {"gap", number(gap)},
+                                          {"step", step},
+                                          {"end", number(contact + 0.1)},
+                                          {"tolerance", tolerance}}),
+                              Formulation::vm_md);
       INFO(v << " " << tolerance);
       REQUIRE(at.events.size() >= 2);
       CHECK(at.events[0].t == Approx(contact).epsilon(1e-6));
