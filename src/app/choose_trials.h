@@ -43,7 +43,7 @@ class Trials {
   Series series_of(const Selection& selection, double step);
   /// The same of a scene's own reduced model; Trial::none where it ends elsewhere than the reference, by two `step`s.
   double error_of(const scene::Scene& scene, double step);
-  /// Of the simulation [s], the least of five where one is too short to tell.
+  /// Of the simulation [s], the least of five where one is too short to measure.
   double seconds_of(const Selection& selection, double step);
   Selection first_of(const std::vector<assess::EnergyContribution>& order, std::size_t count) const;
   /// The fewest basis vectors with at most this error; `most` of `order` where none will do. Bisection, about where

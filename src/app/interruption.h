@@ -13,9 +13,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
   ~Interruption();
-  /// @throws RunError  one of the ranks of `comm` was told to end. Collective.
+  /// @throws RunError  one of the ranks of `comm` was asked to end. Collective.
   void check(MPI_Comm comm) const;
-  /// Whether a rank of `comm` was told to end since the last outermost Interruption began. Collective.
+  /// Whether a rank of `comm` was asked to end since the last outermost Interruption began. Collective.
   static bool happened(MPI_Comm comm);
 
  private:

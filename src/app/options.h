@@ -3,7 +3,7 @@
 
 namespace floe::app {
 
-/// What is wrong with a PETSc option, as far as its name and value tell before any solver is made: it begins with no
+/// What is wrong with a PETSc option, as far as its name and value show before any solver is made: it begins with no
 /// prefix of floe's solvers and is none of PETSc's own, gives a time that is not positive, or is not taken (refusal).
 /// Empty if nothing is.
 ///

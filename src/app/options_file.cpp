@@ -62,7 +62,7 @@ std::string fault_of_file(const std::string& path) {
   return "";
 }
 
-/// Those that PETSc reads whether it is told to or not.
+/// Those that PETSc reads whether it is asked to or not.
 Words files_of_petsc() {
   Words files = {".petscrc", "petscrc"};
   if (const char* home = std::getenv("HOME")) files.push_back(std::string(home) + "/.petscrc");

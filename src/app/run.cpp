@@ -214,7 +214,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     recorder.finish(report, text_of(fault), assesses);
     if (lost) std::rethrow_exception(lost);
   });
-  if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to tell
+  if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to report
   if (fault) std::rethrow_exception(fault);
   if (!assesses) return result;
   ordered_json budget;

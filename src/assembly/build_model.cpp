@@ -102,7 +102,7 @@ Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
   return split_frames(whole, comm);
 }
 
-/// Files of versions 2 and 3 have first moments and places at arms to first order only, and do not tell whether there
+/// Files of versions 2 and 3 have first moments and places at arms to first order only, and do not state whether there
 /// are any; those before version 5 rotate places of shells to first order, or by the mean of their nodes.
 void warn_of_files(ReducedBodies& all) {
   for (const ReducedBody& body : all.bodies)

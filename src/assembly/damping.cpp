@@ -85,7 +85,7 @@ std::string damping_without_joints(const Plan& plan, int index, const ReducedBod
   const PlannedBody& body = plan.bodies[index];
   const bool of_file = body.spec.reduced.has_value();
   if (of_file) {
-    if (reduced.report.file_version < 3) return "";  // beta is not in the file, and cannot be told apart
+    if (reduced.report.file_version < 3) return "";  // beta is not in the file, and cannot be separated
     const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
     if (!(reduced.damping.norm() > 1e-9 * reduced.strain_rate_damping * K.norm())) return "";
   } else if (body.spec.damping.modal.empty() || in_several_frames(body) ||

@@ -19,7 +19,7 @@ double greatest_of(const math::Formula& f, double end) {
   for (int i = 0; i <= samples; ++i) {
     try {
       greatest = std::max(greatest, std::abs(f(end * i / samples)));
-    } catch (const math::FormulaError&) {  // told when the motion gets there
+    } catch (const math::FormulaError&) {  // reported when the motion gets there
     }
   }
   return greatest;

@@ -69,7 +69,7 @@ Scene alone(const Scene& scene, int index) {
 }
 
 /// |eta_i eta_j| of fields that loads move alike: eta_i = 1 / phi_i' K phi_i, the static answer to a unit generalised
-/// force, 1 / omega_i^2 of a mode. No motion is known that could tell more.
+/// force, 1 / omega_i^2 of a mode. No motion is known that could show more.
 Eigen::MatrixXd interaction_at_unit_force(const ReducedBody& linear) {
   const Eigen::MatrixXd fields = linear.of_fields.inverse();  // in the coordinates of the basis
   const Eigen::VectorXd stiffness =

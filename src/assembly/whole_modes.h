@@ -12,7 +12,7 @@
 namespace floe::assembly {
 
 /// Modal damping of the plan's bodies in several frames: modes of each as one, as its joints hold it. Collective.
-/// @throws RunError  nodes at one place, which pieces and the whole do not tell apart
+/// @throws RunError  nodes at one place, which pieces and the whole do not distinguish
 std::vector<WholeModes> modes_of_wholes(const Plan& plan);
 
 /// Where the unknowns of a piece are: reduced, its elastic coordinates; at full order, its nodes.

@@ -146,5 +146,5 @@ def write_hdf5(path, body):
                 h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value))
         file.flush()
         image = file.id.get_file_image()
-    with open(path, "wb") as target:  # whose faults, unlike HDF5's, can be told
+    with open(path, "wb") as target:  # whose faults, unlike HDF5's, can be reported
         target.write(image)

@@ -11,7 +11,7 @@ struct NodeGraph {
   std::vector<PetscInt> other;  ///< of each row, columns of others
 };
 
-/// Exact: cells of other ranks that touch this rank's rows are told by their owners. Collective.
+/// Exact: cells of other ranks that touch this rank's rows are sent by their owners. Collective.
 NodeGraph node_graph(const Mesh& mesh);
 
 }  // namespace floe::fem

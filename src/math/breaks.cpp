@@ -8,7 +8,7 @@
 namespace floe::math {
 namespace {
 
-/// The formula at one time: its derivatives, its switches, and their signs, which tell the branch.
+/// The formula at one time: its derivatives, its switches, and their signs, which identify the branch.
 struct Sample {
   double t = 0;
   Jet jet;

@@ -13,7 +13,7 @@ struct Where {
   auto operator<=>(const Where&) const = default;
 };
 
-/// What is wrong in the files, collected over the ranks and told in the order of the files.
+/// What is wrong in the files, collected over the ranks and reported in the order of the files.
 class Faults {
  public:
   /// @param binary  a Where counts bytes, not lines

@@ -39,7 +39,7 @@ void refuse_unknown(MPI_Comm comm, const FileMesh& file, const Translation& used
       check(cell.nodes[i], cell.where, [&] { return "element " + std::to_string(cell.label); });
   for (const auto& mention : file.mentions)
     check(mention.label, mention.where, [] { return std::string("this line"); });
-  faults.throw_together(comm);  // the sets that hold the nodes of bad elements need not be told as well
+  faults.throw_together(comm);  // the sets that hold the nodes of bad elements need not be reported as well
   for (const auto& place : file.places)
     for (const long long label : place.labels) check(label, place.where, [&] { return "node set " + place.name; });
   faults.throw_together(comm);

@@ -14,7 +14,7 @@ bool holds(const InpSet& set, int number, const InpElement& element) {
                                               [&](const auto& range) { return range.holds(element.label); });
 }
 
-/// Elements that are given by number, told to the ranks that hold them. Collective.
+/// Elements that are given by number, sent to the ranks that have them. Collective.
 std::vector<InpMember> listed_elements(MPI_Comm comm, const std::vector<InpElementList>& lists, InpReading& reading) {
   std::vector<long long> labels, asked;
   for (const auto& element : reading.elements) labels.push_back(element.label);

@@ -229,7 +229,7 @@ void read_transform(const InpBlock& block, InpReading& reading);
 void read_equation(const InpBlock& block, InpReading& reading);
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading);
 
-/// Tells all ranks which sets the sets hold by name; names that are no sets become faults. Collective.
+/// Gives all ranks the sets that the sets contain by name; names that are no sets become faults. Collective.
 void agree_members(MPI_Comm comm, InpReading& reading);
 
 /// Elements of this rank's share that each list holds; elements that are not defined become faults. Collective.

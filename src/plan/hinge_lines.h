@@ -14,20 +14,20 @@ using namespace scene;
 /// theory this is a simply supported edge whose support moves: no moment about the edge at any point of it, and so no
 /// mean one.
 ///
-/// An edge that has no such line, and was not told to be one, is left to its mean. Edges that the ground holds are
+/// An edge that has no such line, and is not specified as one, is left to its mean. Edges that the ground holds are
 /// lines where they have no conflict with others (mesh::with_lines); else every node of theirs is constrained by
 /// itself.
 ///
 /// @param places   nodes by name, the same on all ranks
 /// @param notices  receives straight edges whose joint has another axis
-/// @throws InputError  told to be a line, and is none. Collective.
+/// @throws InputError  specified as a line, and is none. Collective.
 std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
                                          const mesh::NodeSets& places, std::vector<std::string>& notices);
 
 /// Says of edges that the ground holds and that could not be lines (mesh::with_lines) what holds them now.
 ///
 /// @param left_out  where their joints stand
-/// @throws InputError  told to be a line
+/// @throws InputError  specified as a line
 void report_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices);
 
 /// Nodes of the body's edges that the ground clamps, and those that its frame goes through.

@@ -5,10 +5,10 @@
 namespace floe::scene {
 namespace {
 
-constexpr int samples = 16;  // of the time of the motion; the rest is told when the run gets there
+constexpr int samples = 16;  // of the time of the motion; the rest is reported when the run gets there
 
 void check(Document& document, const math::Formula& formula, double end, Where where, const std::string& key) {
-  if (formula.constant() || formula.has_sensors()) return;  // checked when read, or told when the run gets there
+  if (formula.constant() || formula.has_sensors()) return;  // checked when read, or reported when the run gets there
   where.key += (where.key.empty() ? "" : ".") + key;
   try {
     for (int i = 0; i <= samples; ++i) formula(end * i / samples);

@@ -59,7 +59,7 @@ Point reduced_point(const Body& body, const Place& place) {
   return {x.x(), x.y(), x.z()};
 }
 
-// Nothing when the place is wrong, which check_places has told.
+// Nothing when the place is wrong, which check_places has reported.
 std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
   if (place.ground()) return Spot{nullptr, {}, place.point};
   for (const Body& body : scene.bodies) {

@@ -18,8 +18,8 @@ struct Value {
 
 /// The file while it is read: its parameters so far and the faults found in it.
 ///
-/// Reading goes on after a fault, with some value in place of the wrong one, so that all faults are told at once; what
-/// would only follow from an earlier fault is not checked (compare fault_count()).
+/// Reading goes on after a fault, with some value in place of the wrong one, so that all faults are reported at once;
+/// what would only follow from an earlier fault is not checked (compare fault_count()).
 class Document {
  public:
   std::string file;

@@ -10,7 +10,7 @@
 namespace floe::scene {
 namespace {
 
-/// What stands between the fields of a file: its first line of numbers tells.
+/// What stands between the fields of a file: taken from its first line of numbers.
 char separator_of(const std::string& line) {
   for (const char separator : {';', ','})
     if (line.find(separator) != std::string::npos) return separator;

@@ -34,7 +34,7 @@ std::vector<Part> read_named(Document& document, Reading& scene, const std::stri
   return parts;
 }
 
-// Whether a body that was reduced before is in space; what is wrong with its file is told when it is read.
+// Whether a body that was reduced before is in space; what is wrong with its file is reported when it is read.
 bool reduced_in_space(Document& document, const YAML::Node& body) {
   if (!body.IsMap() || !body["reduced"] || !body["reduced"].IsScalar()) return false;
   try {

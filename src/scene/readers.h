@@ -60,7 +60,7 @@ Place read_place(Document& document, const Value& value, const Key& key);
 /// A place of the body itself: `end`, [x, y] or [x, y, z].
 Place read_own_place(Document& document, const Value& value, const Key& key, const std::string& body);
 
-// What only the whole scene can tell; each notes faults.
+// What only the whole scene shows; each notes faults.
 
 /// Frames, modes and initial deformation against the body's mesh, which must be sound.
 void check_body(Document& document, const Body& body);

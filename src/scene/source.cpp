@@ -31,7 +31,7 @@ bool utf8(const std::string& text) {
   return expected == 0;
 }
 
-// Where a second document starts, if there is one. YAML::LoadAll tells it too, but never returns from a text that
+// Where a second document starts, if there is one. YAML::LoadAll shows it, too, but never returns from a text that
 // begins with a comma: it takes it for empty documents without end.
 class DocumentStarts : public YAML::EventHandler {
  public:

@@ -16,7 +16,7 @@ constexpr double least_size = 1e-120, greatest_size = 1e120;  // squares and the
 
 bool out_of_size(double number) {
   const double size = std::abs(number);
-  return size != 0 && !(size >= least_size && size <= greatest_size);  // NaN was told before
+  return size != 0 && !(size >= least_size && size <= greatest_size);  // NaN was reported before
 }
 
 // The number that a text is: digits as in C or YAML's .inf and .nan; nothing for any other text.
@@ -97,7 +97,7 @@ double read_number(Document& document, const Value& value, const Key& key) {
   try {
     number = formula();
   } catch (const math::FormulaError&) {
-    return NAN;  // told by read_formula
+    return NAN;  // reported by read_formula
   }
   if (!key.range.contains(number)) {
     const std::string& text = value.node.Scalar();

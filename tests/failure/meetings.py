@@ -88,7 +88,7 @@ def killed_in_estimate(floe, ranks, folder, *words):
     j = summary(folder)
     assert j["status"] == "finished" and j["assessment"].startswith("not done: the run was interrupted"), j
     assert j["estimate"] == {"none": j["assessment"]}, j["estimate"]
-    (folder / "out/.floe.lock").unlink()  # which tells the next run of nobody
+    (folder / "out/.floe.lock").unlink()  # so that the next run finds no other
     files("finished")(folder)
     with h5py.File(folder / "out/result.h5") as result:
         assert "estimate" not in result

@@ -198,7 +198,7 @@ def refuse(floe, ranks, folder, words, code, phrase, prefix=()):
 
 
 def refusals(floe, ranks, chance, folder):
-    """Another scene, formulation, options, ranks; a full disk: told, and nothing is lost."""
+    """Another scene, formulation, options, ranks; a full disk: reported, and nothing is lost."""
     text = BEAM + EVENTS + FIXED
     (folder / "scene.yaml").write_text(text)
     end(start(floe, ranks, folder, ["scene.yaml", "-o", "whole"]), folder)

@@ -88,7 +88,7 @@ def killed(folder):
 
 
 def full(folder):
-    """On a full disk: the reason is told, what had been written can be read, though no room is left to trim it."""
+    """On a full disk: the reason is reported, what had been written can be read, though no room is left to trim it."""
     summary = json.loads((folder / "out/summary.json").read_text())
     assert summary["status"] == "failed" and "File too large" in summary["reason"]
     times = probe_times(folder / "out/probes.csv")
@@ -114,7 +114,7 @@ def no_results(folder):
 
 
 def not_looked(folder):
-    """An equilibrium whose stability nobody can tell says so."""
+    """An equilibrium of unknown stability is reported as such."""
     assert json.loads((folder / "out/summary.json").read_text())["stability"].startswith("not looked at")
 
 

@@ -45,7 +45,8 @@ TEST_CASE("constraint modes: hinged at one end, guided at the other, under its w
   check_agreement(guided("type: revolute", "gravity: [0, -1]"), 2e-4);
 }
 
-// The end clamped, the start rotated by the drive: all six dofs of the ends are told, the shape between is the body's.
+// The end clamped, the start rotated by the drive: all six dofs of the ends are prescribed, the shape between is the
+// body's.
 TEST_CASE("constraint modes: driven at one end, clamped at the other") {
   const std::string reduction = GENERATE("{modes: 5}", "{modes: {count: 5, of: frame}}");
   INFO(reduction);

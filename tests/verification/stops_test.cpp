@@ -253,7 +253,7 @@ probes: {ball: {at: ball.middle}}
   check_landing(at, 0.0123);
 }
 
-// Many hits: each rebound is told of, and the energy that damping takes makes the speeds fall.
+// Many hits: each rebound is reported, and the energy that damping takes makes the speeds fall.
 TEST_CASE("stops in space: a bouncing slide alternates contacts and releases") {
   const Rotated rotation;
   const History at = move(fill(R"yaml(

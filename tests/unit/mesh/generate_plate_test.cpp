@@ -90,7 +90,7 @@ TEST_CASE("a graded plate has cells in geometric progression") {
   CHECK(all.at(29) == Eigen::Vector3d(2, 3, 0));
 }
 
-TEST_CASE("arguments that make no plate are told together") {
+TEST_CASE("arguments that make no plate are reported together") {
   const double nan = std::nan("");
   const auto fault = [](const Plate& plate) {
     return testing::fault_of([&] { generate::plate(PETSC_COMM_WORLD, plate); });

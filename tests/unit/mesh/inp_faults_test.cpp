@@ -30,7 +30,7 @@ TEST_CASE("the parts of the deck that these tests spoil are good") {
   CHECK(said(nodes + elements + section) == "nothing was thrown");
 }
 
-TEST_CASE("keywords, parameters and types that are not read are told, all of them") {
+TEST_CASE("keywords, parameters and types that are not read are reported, all of them") {
   const std::string text = said(nodes + elements + section +
                                 "*ELEMNT, TYPE=S3\n3, 1, 2, 4\n*NSET, NST=a\n1\n*ELEMENT, TYPE=S9R5\n"
                                 "9, 1, 2, 3, 4, 1, 2, 3, 4, 1\n*SYSTEM\n1, 0\n*STEP\n*END\n");
@@ -146,7 +146,7 @@ TEST_CASE("a byte 0 in a name does no harm") {
              Contains("holds 'a', which is not a set"));
 }
 
-TEST_CASE("at most twenty faults are told") {
+TEST_CASE("at most twenty faults are reported") {
   std::string text = nodes + elements + section;
   for (int i = 0; i < 50; ++i) text += "*NONSENSE\n";
   CHECK_THAT(said(text),

@@ -88,7 +88,7 @@ TEST_CASE("ends of rods at grids of Nastran that rods alone hold") {
              Contains("grid 5: rods alone hold a mass with an offset or moments of inertia"));
 }
 
-TEST_CASE("pin flags release the ends of a beam, and tell parts of one property apart") {
+TEST_CASE("pin flags release the ends of a beam, and distinguish parts of one property") {
   const std::string bar = "PBAR,5,1,.01,3.-6,2.-6,1.-6\n";
   const auto file = read("pins.bdf", square + bar + "CBAR,9,5,1,2,0.,0.,1.\n,56\nCBAR,10,5,2,3,0.,0.,1.\n,,456\n");
   REQUIRE(file.deck.beam_sections.size() == 2);

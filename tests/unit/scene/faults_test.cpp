@@ -32,7 +32,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
 }  // namespace
 
 // Beside each bad scene stands what a user must read, FILE.expected: a line for each fault that the scene was given.
-TEST_CASE("each bad scene has all its faults told, in the order of the file") {
+TEST_CASE("each bad scene has all its faults reported, in the order of the file") {
   std::set<fs::path> scenes;
   for (const auto& entry : fs::directory_iterator("tests/failure/scenes")) {
     if (entry.path().extension() == ".yaml") scenes.insert(entry.path());
