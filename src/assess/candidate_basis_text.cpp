@@ -114,6 +114,7 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
   root.remove("accuracy");
   root["motion"]["step"] = fmt::format("{}", motion.step);
   root["motion"].remove("every");
+  if (!motion.tolerance) root["motion"].remove("tolerance");
   if (motion.output)
     root["motion"]["output"] = fmt::format("{}", *motion.output);
   else

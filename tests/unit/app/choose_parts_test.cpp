@@ -145,6 +145,14 @@ probes: {tip: {at: soft.end}}
   CHECK(worst_error(of_choice(chosen), moved(fine, Formulation::cfr)) < 0.036);
 }
 
+TEST_CASE("accuracy: of a scene with adaptive steps fixed steps are selected, in its text, too") {
+  std::string text = beam("0.3");
+  text.replace(text.find("step: 0.02"), 10, "step: 0.02, tolerance: 1e-4");
+  const Chosen chosen = choice_of(text, 0.05, true);
+  CHECK(chosen.within());
+  CHECK_FALSE(chosen.scene.motion.tolerance);
+}
+
 TEST_CASE("total accuracy: a mesh from a file is refined, in the text of the scene, too") {
   const OwnFolder own;
   own.write("line.inp",
