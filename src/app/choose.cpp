@@ -19,4 +19,16 @@ Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Co
   return chosen;
 }
 
+assembly::Model another_model(const Chosen& chosen, MPI_Comm comm) {
+  if (!chosen.candidates || chosen.selection.responses > 0)
+    return assembly::build(chosen.scene, scene::Formulation::vm_md, comm);
+  return chosen.candidates->model(chosen.selection);
+}
+
+std::vector<std::string> write_scene(const Chosen& chosen, const std::string& path, bool overwrite, MPI_Comm comm) {
+  if (chosen.candidates) return chosen.candidates->write(chosen.selection, chosen.scene.motion, path, overwrite);
+  assess::write_scene(chosen.scene, path, overwrite, comm);
+  return {path};
+}
+
 }  // namespace floe::app

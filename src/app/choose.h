@@ -16,7 +16,7 @@ struct Decision {
 
 /// The cheapest model found of a scene within an accuracy.
 struct Chosen {
-  std::unique_ptr<assess::CandidateBasis> candidates;  ///< that the model stands on
+  std::unique_ptr<assess::CandidateBasis> candidates;  ///< of the model's basis; none: the scene's own
   assess::Selection selection;
   scene::Scene scene;  ///< with the step that was chosen
   assembly::Model model;
@@ -47,7 +47,8 @@ struct Chosen {
 ///
 /// For the total error the reference is formulation cfr on a fine mesh in fine steps (exact_motion.h), and floating
 /// frames, elements and strains are chosen before: the coarsest that leave less than two thirds of the accuracy. Where
-/// that is not to be had, it is the error of reduction, step and mesh, and the rest is named (Chosen::unbounded).
+/// that is not to be had, it is the error of reduction, step and mesh, and the rest is named (Chosen::unbounded). Where
+/// no model within the accuracy is found and the scene's own is closer to the reference, that is kept.
 Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm);
 
 /// What models are measured against.
@@ -65,6 +66,12 @@ Chosen choose_total(const scene::Scene& scene, double accuracy, MPI_Comm comm);
 /// Another model like `chosen.model`, at its start. Collective.
 assembly::Model another_model(const Chosen& chosen, MPI_Comm comm);
 
+/// The scene that has the chosen model, into a file; bodies that no scene can specify are written beside it.
+/// @return what was written; @throws InputError, RunError on every rank. Collective.
+std::vector<std::string> write_scene(const Chosen& chosen, const std::string& path, bool overwrite, MPI_Comm comm);
+
+/// In one line: meshes and frames, basis vectors, step.
+std::string summary_of(const Chosen& chosen);
 nlohmann::ordered_json to_json(const Chosen& chosen);
 output::Table decisions_table(const Chosen& chosen);
 

@@ -1,6 +1,22 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "choose.h"
 
 namespace floe::app {
+
+std::string summary_of(const Chosen& chosen) {
+  std::vector<std::string> words;
+  for (const Decision& one : chosen.decisions) {
+    if (one.what == "model") return one.choice + " model";
+    if (one.what == "mesh and frames" || one.what == "elements") words.push_back(one.choice);
+    if (one.what == "bodies" && one.choice == "rigid") words.emplace_back("rigid");
+    if (one.what == "basis vectors") words.push_back(one.choice + " basis vectors");
+    if (one.what == "elastic force" && one.choice == "linear") words.emplace_back("linear elastic force");
+    if (one.what == "step") words.push_back("step " + one.choice);
+  }
+  return fmt::format("{}", fmt::join(words, "; "));
+}
 
 nlohmann::ordered_json to_json(const Chosen& chosen) {
   nlohmann::ordered_json j;

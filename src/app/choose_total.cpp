@@ -23,6 +23,8 @@ namespace {
 constexpr double impossible = std::numeric_limits<double>::infinity();
 constexpr double of_discretisation = 2. / 3;  // of the accuracy, for frames, elements and strains
 constexpr double most_seconds = 60;           // of one simulation in formulation cfr
+constexpr double least_left = 0.1;            // of the accuracy, that the error of the reference leaves to the models
+constexpr double no_measure = 0.1;            // error of a reference by which no model is selected
 constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
 constexpr double most_work = 1e5;  // elements of plates times steps, of a simulation at full order: about 10 s
 
@@ -37,7 +39,7 @@ class TotalSearch {
 
  public:
   TotalSearch(const scene::Scene& scene, double accuracy, MPI_Comm comm)
-      : scene_(scene), accuracy_(accuracy), comm_(comm), chosen_(discretisation_of(scene)) {}
+      : scene_(scene), asked_(accuracy), accuracy_(accuracy), comm_(comm), chosen_(discretisation_of(scene)) {}
 
   Chosen result() {
     exact_ = exact_motion(scene_, accuracy_, most_seconds, comm_);
@@ -45,6 +47,16 @@ class TotalSearch {
     if (!exact_.none.empty()) return without_exact();
     decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
            fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
+    if (exact_.error > (1 - least_left) * asked_) {
+      if (own_ && exact_.error > no_measure)
+        return own_model(fmt::format(
+            "no model is selected by a reference whose error is above {}: take a smaller motion.step, or loads and "
+            "drives that begin smoothly",
+            math::percent(no_measure)));
+      accuracy_ = 2 * exact_.error;
+      decisions_.back().reason +=
+          fmt::format(", too large for the accuracy requested; models are selected for {}", math::percent(accuracy_));
+    }
     if (full_order()) {
       lengthen_steps();
       choose_frames_and_elements();
@@ -54,7 +66,10 @@ class TotalSearch {
     }
     explain_discretisation();
     const scene::Scene scene = discretised(scene_, chosen_);
-    return finished(choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step}));
+    Chosen chosen = choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step});
+    if (chosen.supported <= asked_ || error_of_own() >= chosen.supported) return finished(std::move(chosen));
+    return own_model(fmt::format("the selected model ({}; {}) has {}", words(chosen_), summary_of(chosen),
+                                 math::percent(chosen.supported)));
   }
 
  private:
@@ -311,8 +326,22 @@ class TotalSearch {
     return left;
   }
 
+  double error_of_own() const { return own_ ? worst_error(own_->series, exact_.series) + exact_.error : impossible; }
+
+  /// The scene's own model.
+  Chosen own_model(const std::string& why) {
+    Chosen own;
+    own.richest = exact_.error, own.supported = error_of_own();
+    decide("model", "the scene's own", fmt::format("estimated error {}; {}", math::percent(own.supported), why));
+    own.scene = at_equal_times(scene_);
+    const std::clock_t begin = std::clock();
+    own.model = assembly::build(own.scene, scene::Formulation::vm_md, comm_, true);
+    own.building = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return finished(std::move(own));
+  }
+
   Chosen finished(Chosen chosen) {
-    chosen.total = true;
+    chosen.total = true, chosen.asked = asked_;
     chosen.unbounded.insert(chosen.unbounded.begin(), unbounded_.begin(), unbounded_.end());
     chosen.before = before_;
     chosen.decisions.insert(chosen.decisions.begin(), decisions_.begin(), decisions_.end());
@@ -320,7 +349,7 @@ class TotalSearch {
   }
 
   const scene::Scene& scene_;
-  double accuracy_;
+  double asked_, accuracy_;  // as requested; what models are selected for
   MPI_Comm comm_;
   Discretisation chosen_;
   ExactMotion exact_;

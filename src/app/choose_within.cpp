@@ -380,11 +380,6 @@ class Search {
 
 }  // namespace
 
-assembly::Model another_model(const Chosen& chosen, MPI_Comm comm) {
-  if (chosen.selection.responses > 0) return assembly::build(chosen.scene, scene::Formulation::vm_md, comm);
-  return chosen.candidates->model(chosen.selection);
-}
-
 Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference) {
   return Search(scene, accuracy, comm, reference).result();
 }

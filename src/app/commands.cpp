@@ -224,7 +224,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     plan.estimate = chosen.total;
     if (chosen.total) plan.required = chosen.asked;
     plan.made_rigid = made_rigid(chosen.scene, scene);
-    plan.budget = !chosen.candidates->has_responses(chosen.selection);  // no scene on another mesh names them
+    plan.budget = !chosen.candidates || !chosen.candidates->has_responses(chosen.selection);  // not on other meshes
     plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
     if (chosen.total) {
@@ -239,7 +239,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
       moved.warnings.push_back(fmt::format("accuracy: the {} error is not bounded: {}", part, why));
     if (explicit_scene) {
       try {
-        written = chosen.candidates->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
+        written = write_scene(chosen, *explicit_scene, overwrite, comm);
       } catch (const std::runtime_error& error) {  // the run stands
         moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
       }

@@ -45,19 +45,6 @@ bool has_plates(const Scene& scene) {
                      [](const scene::Body& body) { return body.mesh.plate.has_value(); });
 }
 
-/// What was selected: meshes and frames, basis vectors, step.
-std::string words_of_choice(const Chosen& chosen) {
-  std::vector<std::string> words;
-  for (const Decision& one : chosen.decisions) {
-    if (one.what == "mesh and frames" || one.what == "elements") words.push_back(one.choice);
-    if (one.what == "bodies" && one.choice == "rigid") words.emplace_back("rigid");
-    if (one.what == "basis vectors") words.push_back(one.choice + " basis vectors");
-    if (one.what == "elastic force" && one.choice == "linear") words.emplace_back("linear elastic force");
-    if (one.what == "step") words.push_back("step " + one.choice);
-  }
-  return fmt::format("{}", fmt::join(words, "; "));
-}
-
 /// As flexible as in `scene`, where a selection made bodies rigid.
 Scene as_flexible(Scene chosen, const Scene& scene) {
   for (scene::Body& body : chosen.bodies)
@@ -194,7 +181,7 @@ TradeoffRun::Climbed TradeoffRun::selected(const Candidate& member, MPI_Comm com
   const RunResult result = move(chosen.scene, chosen.model, chosen.seconds, comm, std::nullopt, plan);
   Climbed climbed{measured(result), result.series};
   ModelVariant& variant = climbed.variant;
-  variant.required = member.accuracy, variant.selected = words_of_choice(chosen);
+  variant.required = member.accuracy, variant.selected = summary_of(chosen);
   variant.estimate.assign(probes_.size(), chosen.supported);
   std::vector<std::string> lacks;
   for (const auto& [part, why] : chosen.unbounded) lacks.push_back(part);

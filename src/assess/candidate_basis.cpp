@@ -17,6 +17,7 @@
 #include "floe/output/folder.h"
 #include "floe/output/reduced_file.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
 #include "floe/solve/simulation.h"
 #include "matching_pursuit.h"
 
@@ -311,6 +312,23 @@ bool CandidateBasis::has_responses(const Selection& selection) const {
   return false;
 }
 
+namespace {
+
+void check_free(MPI_Comm comm, const std::string& path, bool overwrite) {
+  petsc::agree(comm, [&] {
+    if (!overwrite && std::filesystem::exists(path))
+      throw InputError(path + ": exists; expected another name, or --force");
+  });
+}
+
+void write_text(MPI_Comm comm, const std::string& path, const std::string& text) {
+  petsc::agree(comm, [&] {
+    if (petsc::first_rank(comm)) output::write_file_atomically(path, text + "\n");
+  });
+}
+
+}  // namespace
+
 std::vector<std::string> CandidateBasis::write(const Selection& selection, const Motion& motion,
                                                const std::string& path, bool overwrite) const {
   const Parts& parts = *parts_;
@@ -336,10 +354,7 @@ std::vector<std::string> CandidateBasis::write(const Selection& selection, const
                        ": is split into frames and has correction vectors of the error estimate, which a scene cannot "
                        "specify; expected frames: 1, or another accuracy");
   std::vector<std::string> written{path};
-  petsc::agree(parts.comm, [&] {
-    if (!overwrite && std::filesystem::exists(scene))
-      throw InputError(path + ": exists; expected another name, or --force");
-  });
+  check_free(parts.comm, path, overwrite);
   for (const auto& [name, file] : files) {
     const std::filesystem::path beside = scene.parent_path() / file;
     const output::Claim claim = output::claim_file(parts.comm, beside);
@@ -354,14 +369,14 @@ std::vector<std::string> CandidateBasis::write(const Selection& selection, const
   }
   const std::string text =
       candidates_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection),
-                      parts.deformed(), std::filesystem::absolute(scene).parent_path()) +
-      "\n";
-  petsc::agree(parts.comm, [&] {
-    int rank = 0;
-    MPI_Comm_rank(parts.comm, &rank);
-    if (rank == 0) output::write_file_atomically(scene, text);
-  });
+                      parts.deformed(), std::filesystem::absolute(scene).parent_path());
+  write_text(parts.comm, path, text);
   return written;
+}
+
+void write_scene(const Scene& scene, const std::string& path, bool overwrite, MPI_Comm comm) {
+  check_free(comm, path, overwrite);
+  write_text(comm, path, scene_text(scene, std::filesystem::absolute(path).parent_path()));
 }
 
 }  // namespace floe::assess

@@ -62,13 +62,38 @@ class MovedPaths {
   std::vector<YAML::Node> moved_;
 };
 
+/// The scene's text, its paths taken from `folder` where that is not empty.
+YAML::Node tree_of(const Scene& scene, const std::filesystem::path& folder) {
+  YAML::Node root = load_resolved(scene);
+  if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
+  return root;
+}
+
+/// Without an accuracy, in the steps of a motion.
+std::string text_of(YAML::Node root, const Motion& motion) {
+  root.remove("accuracy");
+  root["motion"]["step"] = fmt::format("{}", motion.step);
+  root["motion"].remove("every");
+  if (!motion.tolerance) root["motion"].remove("tolerance");
+  if (motion.output)
+    root["motion"]["output"] = fmt::format("{}", *motion.output);
+  else
+    root["motion"]["every"] = motion.every;
+  YAML::Emitter out;
+  out << root;
+  return out.c_str();
+}
+
 }  // namespace
+
+std::string scene_text(const Scene& scene, const std::filesystem::path& folder) {
+  return text_of(tree_of(scene, folder), scene.motion);
+}
 
 std::string candidates_text(const Scene& scene, const std::vector<CandidateVector>& columns, const Selection& selection,
                             const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
                             const std::set<std::string>& deformed, const std::filesystem::path& folder) {
-  YAML::Node root = load_resolved(scene);
-  if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
+  YAML::Node root = tree_of(scene, folder);
   for (const Body& body : scene.bodies) {
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;
@@ -111,17 +136,7 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
     node["reduction"] = reduction;
   }
   if (share_frames != scene.share_frames) root["share_frames"] = share_frames;
-  root.remove("accuracy");
-  root["motion"]["step"] = fmt::format("{}", motion.step);
-  root["motion"].remove("every");
-  if (!motion.tolerance) root["motion"].remove("tolerance");
-  if (motion.output)
-    root["motion"]["output"] = fmt::format("{}", *motion.output);
-  else
-    root["motion"]["every"] = motion.every;
-  YAML::Emitter out;
-  out << root;
-  return out.c_str();
+  return text_of(root, motion);
 }
 
 }  // namespace floe::assess

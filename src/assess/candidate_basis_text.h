@@ -16,4 +16,7 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
                             const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
                             const std::set<std::string>& deformed, const std::filesystem::path& folder = {});
 
+/// The scene's text with the steps of scene.motion and without `accuracy`; `folder` as above.
+std::string scene_text(const Scene& scene, const std::filesystem::path& folder);
+
 }  // namespace floe::assess

@@ -77,4 +77,8 @@ class CandidateBasis {
   std::unique_ptr<Parts> parts_;
 };
 
+/// A scene with its own basis vectors into a file, in the steps of scene.motion and without `accuracy`.
+/// @throws InputError  the file exists and `overwrite` is not given; RunError. Collective.
+void write_scene(const Scene& scene, const std::string& path, bool overwrite, MPI_Comm comm);
+
 }  // namespace floe::assess
