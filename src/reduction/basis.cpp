@@ -189,12 +189,15 @@ double shells_limit(const fem::Structure& structure) {
   return 1e6 * most;
 }
 
-/// Drops columns of which little was new, whose energy is that of shells, and whose shells by themselves are stiffer
-/// for their mass than anything that their mesh can do: orthonormalisation has left of them round-off of drilling
-/// rotations, which have stiffness and no mass, and in a reduced K everything else would be round-off of theirs.
-/// @param energies  x'K x of each column. Collective.
-void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, const Eigen::VectorXd& energies,
-                   std::vector<Column>& columns) {
+/// Columns in which shells by themselves are stiffer for their mass than anything that their mesh can do, and their
+/// energies x'K x. Round-off of drilling rotations, which have stiffness and no mass, is all that these can be: what
+/// orthonormalisation leaves of a column within the span of others, or a derivative that is zero where there is mass.
+/// In a reduced K everything else would be round-off of theirs. Collective.
+std::vector<std::pair<Eigen::Index, double>> drilling(const fem::Structure& structure, const fem::FieldRows& X,
+                                                      const std::vector<Column>& columns) {
+  double limit = shells_limit(structure);
+  MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  if (limit == 0) return {};
   const Eigen::Index k = X.cols();
   const fem::DofRanges ranges = fem::dof_ranges(structure, X);
   Eigen::ArrayXXd sums = Eigen::ArrayXXd::Zero(k, 2);  // of each column: of K and of M
@@ -214,13 +217,12 @@ void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, con
       for (const fem::MassRows& sample : piece.mass) add(sample.N, sample.mass, 1);
     }
   }
-  double limit = shells_limit(structure);
-  MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
   MPI_Bcast(sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
-  if (limit == 0) return;
+  std::vector<std::pair<Eigen::Index, double>> stiff;
   for (Eigen::Index i = 0; i < k; ++i)
-    if (columns[i].suspect()) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * energies[i];
+    if (columns[i].kept && sums(i, 0) > limit * sums(i, 1)) stiff.emplace_back(i, sums(i, 0));
+  return stiff;
 }
 
 /// Drops columns of which little was new and that deform the body much less than any other one. Where the others span
@@ -238,13 +240,17 @@ void drop_rigid(const Eigen::VectorXd& energies, std::vector<Column>& columns, s
   }
 }
 
-/// Drops columns that are round-off of those before them, by their energies. Collective.
+/// Drops columns that are round-off, by their energies. Collective.
 void drop_round_off(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns,
                     std::vector<ColumnOrigin>& origins) {
-  if (std::none_of(columns.begin(), columns.end(), [](const Column& column) { return column.suspect(); })) return;
+  const std::vector<std::pair<Eigen::Index, double>> stiff = drilling(structure, X, columns);
+  if (stiff.empty() &&
+      std::none_of(columns.begin(), columns.end(), [](const Column& column) { return column.suspect(); }))
+    return;
   Eigen::VectorXd energies = fem::ElementStiffness(structure).gram(X).diagonal();
   MPI_Bcast(energies.data(), static_cast<int>(energies.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
-  drop_drilling(structure, X, energies, columns);
+  for (const auto& [i, of_shells] : stiff)  // where the shells have less than half of it, others are as stiff
+    if (of_shells >= 0.5 * energies[i]) columns[i] = {.share = 0, .kept = false};
   drop_rigid(energies, columns, origins);
 }
 

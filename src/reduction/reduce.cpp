@@ -169,7 +169,6 @@ void keep_without_mass(const fem::Structure& structure, const std::vector<Vec>& 
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const ColumnOrigin& origin = basis.origins[i];
     if (origin.kind != ColumnOrigin::Kind::derivative || origin.kept || origin.new_part > of_mass) continue;
-    if (!(basis.norms[static_cast<Eigen::Index>(i)] > 0)) continue;
     petsc::VecHandle left = copy(columns[i]);
     check(BVDotVec(basis.V, left, q.data()));
     check(BVMultVec(basis.V, -1, 1, left, q.data()));
