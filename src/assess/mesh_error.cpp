@@ -36,8 +36,9 @@ class MeshError {
     if (finer_) scale_meshes(other_, 2);
     part_.by = finer_ ? "elements half as long" : "elements twice as long";
     const ErrorPart empty = part_;
-    add(reduced());
-    if (!is_reduced(motion_.model.formulation) || !crowded()) return;
+    const std::string fault = petsc::failed_together(motion_.comm, [&] { add(reduced()); });
+    if (!fault.empty()) part_ = empty, part_.none = fault;  // the other mesh has other basis vectors, for example
+    if (!is_reduced(motion_.model.formulation) || (fault.empty() && !crowded())) return;
     if (!(time_.of_first(worst(part_)) > doubtful)) return;
     ErrorPart first = std::move(part_);
     part_ = empty;

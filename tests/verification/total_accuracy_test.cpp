@@ -151,6 +151,48 @@ probes: {a: {joint: h, quantity: angle}, drive: {joint: s, quantity: drive}, tip
   }
 }
 
+// A third interface vector across the cut needs three nodes there, which meshes of half as many elements do not have:
+// the difference of full-order models stands for that of reduced ones.
+TEST_CASE("total accuracy: the mesh error of a model whose basis vectors a coarser mesh does not have") {
+  std::string columns;
+  for (const char* piece : {"#1 ", "#2 "}) {
+    for (const char* name : {"mode 1", "mode 2", "attachment strip#1-2/3.across", "derivative 1,1", "derivative 1,2"})
+      columns += std::string(columns.empty() ? "" : ", ") + "\"" + piece + name + "\"";
+    for (const char* field : {"", "/2"})
+      for (const char* axis : {"fx", "fy", "fz", "mx", "my"})
+        columns += std::string(", \"") + piece + "attachment strip#1-2" + field + "." + axis + "\"";
+  }
+  const auto scene = [&](const std::string& elements, const std::string& reduction) {
+    return scene::parse_scene(fill(R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: $elements, cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 2e9, nu: 0.3, rho: 1000}
+    frames: 2
+    reduction: {$reduction}
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {end: {type: force, at: strip.right, force: [0, 0, "2*sin(8*t)"]}}
+motion: {end: 0.2, step: 4e-3}
+probes: {tip: {at: strip.right}}
+)yaml",
+                                   {{"elements", elements}, {"reduction", reduction}}),
+                              "scene");
+  };
+  const scene::Scene own = scene("[4, 2]", "modes: 2, columns: [" + columns + "]");
+  assembly::Model model = assembly::build(own, Formulation::vm_md, PETSC_COMM_WORLD, true);
+  app::RunPlan plan;
+  plan.quiet = true, plan.check_range = false, plan.estimate = true;
+  plan.offline_processor = 1000;  // no time for a finer mesh
+  const auto estimate = app::move(own, model, 0, PETSC_COMM_WORLD, std::nullopt, plan).summary["estimate"];
+  CHECK(estimate["mesh"]["by"] == "elements twice as long, in full-order models");
+  const double error = app::worst_error(moved(scene("[4, 2]", "modes: 2"), Formulation::nlffr).series,
+                                        moved(scene("[16, 8]", "modes: 2"), Formulation::nlffr).series);
+  CAPTURE(estimate["mesh"].dump(), error);
+  REQUIRE(estimate["mesh"].contains("probes"));
+  CHECK(estimate["mesh"]["probes"]["tip"].get<double>() == Approx(error).epsilon(0.5));
+}
+
 TEST_CASE("total accuracy: the selected model is as close to geometrically exact beams as required") {
   const app::Series exact = moved(scene_of({{"elements", "48"}, {"step", "1e-3"}}), Formulation::cfr).series;
   const double own = app::worst_error(moved(scene_of({}), Formulation::vm_md).series, exact);
