@@ -31,6 +31,12 @@ struct MotionContext {
   petsc::VecHandle accelerations = {};  ///< of the start, until the integrator takes them over
 };
 
+/// Whether an event is due at t, which the motion has reached.
+inline bool is_due(const MotionContext& context, std::size_t i, double t) {
+  const Event& event = context.events[i];
+  return event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
+}
+
 /// Gives a TS its callbacks, type, times and solvers, and the options of the command line. F, J: of the system's
 /// layout.
 /// @throws InputError  an option that no motion can have. Collective.

@@ -115,6 +115,16 @@ void refuse_not_finite(Vec U, Vec V) {
         "-motion_ts_... that stop Newton's method early, or take units in which forces are smaller");
 }
 
+/// Whether the motion ends at t: there, or by an event.
+bool ends(const MotionContext& context, double t) {
+  if (t >= context.end * (1 - 1e-12)) return true;
+  for (std::size_t i = 0; i < context.events.size(); ++i) {
+    const Event& event = context.events[i];
+    if (event.stops && context.happened[i] == 0 && is_due(context, i, t)) return true;
+  }
+  return false;
+}
+
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
   return c.guard.run([&] {
@@ -127,8 +137,7 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
     check(TSGeneralizedAlphaGetEventError(ts, &event_error));
     refuse_not_finite(U, V);
-    c.observe({t, step, U, V, A, t >= c.end * (1 - 1e-12),
-               c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
+    c.observe({t, step, U, V, A, ends(c, t), c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
                c.between && A ? &c.between : nullptr, false, event_error});
   });
 }

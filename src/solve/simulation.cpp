@@ -143,11 +143,8 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
   std::vector<std::size_t> due;
-  for (std::size_t i = 0; i < context.events.size(); ++i) {
-    const Event& event = context.events[i];
-    const bool now = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
-    if (now && context.happened[i] == 0) due.push_back(i);
-  }
+  for (std::size_t i = 0; i < context.events.size(); ++i)
+    if (context.happened[i] == 0 && is_due(context, i, t)) due.push_back(i);
   const auto releases = [&](std::size_t i) { return context.events[i].constraint_switch && !context.events[i].closes; };
   const double h = next_step(context);
   petsc::VecHandle before;  // what one event releases another one of the same instant may hold: both are one jump

@@ -79,3 +79,23 @@ probes: {tip: {at: beam.end}}
   for (std::size_t i = 0; i < series.t.size(); ++i) CHECK(series.t[i] == Approx(0.01 * static_cast<double>(i)));
   CHECK(app::worst_error(series, moved(text, "step: 2.5e-4", Formulation::vm_md)) < 1e-3);
 }
+
+TEST_CASE("output: the instant at which an event ends the motion is stored, at any interval") {
+  const std::string fall = R"yaml(
+gravity: [0, -9.81]
+bodies:
+  mass: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}
+events: {low: {stop: true, $what}}
+probes: {c: {at: mass.centre, quantity: position}}
+)yaml";
+  const double end = std::sqrt(2 * 0.5 / 9.81);
+  for (const std::string what : {"probe: c.y, crosses: -0.5", "at: 0.31927542840705"})
+    for (const std::string interval : {"step: 1e-3", "step: 1e-3, every: 7", "step: 1e-3, output: 0.01",
+                                       "step: 1e-3, output: 0.01, tolerance: 1e-4"}) {
+      CAPTURE(what, interval);
+      const app::Series series = moved(fill(fall, {{"what", what}}), interval, Formulation::vm_md);
+      CHECK(series.t.back() == Approx(end).epsilon(1e-9));
+      CHECK(series.values.back()[1] == Approx(-0.5).epsilon(1e-6));
+      CHECK(*std::prev(series.t.end(), 2) < end - 1e-6);  // once
+    }
+}
