@@ -85,11 +85,17 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
     for (std::size_t i = 0; i < body.omega.size(); ++i)
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
+    for (std::size_t i = 0; i < body.damped.size(); ++i)
+      table.rows.push_back(
+          {body.name, fmt::format("damped {}", i + 1), body.damped[i] / (2 * M_PI), body.damped[i], "-"});
   }
   fmt::print("{}", output::to_text(table));
   for (const auto& body : bodies) {
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
     if (body.left_out > 0) fmt::print("Note: {}\n", assembly::left_out_text(body.name, body));
+    if (!body.damped.empty())
+      fmt::print("Note: body {}: damping.modal refers to the modes `damped`, in which joints to other bodies hold it\n",
+                 body.name);
   }
   for (const std::string& notice : notices_of(bodies)) fmt::print("Note: {}\n", notice);
   if (matrices) fmt::print("Matrices: {}\n", *matrices);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "floe/assembly/damping.h"
 #include "floe/fem/field_rows.h"
 #include "floe/fem/joint_frame.h"
 #include "floe/math/nearest.h"
@@ -146,6 +147,8 @@ void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyRepor
   if (modes == as_the_body_has)
     modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
   generate(plan, index, modes, stage, report);
+  stage.damped = modes_for_damping(plan, index);
+  if (stage.damped) report.damped = stage.damped->omega;
 }
 
 reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
@@ -250,7 +253,7 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
   project_onto(body,
                std::make_shared<reduction::Basis>(reduction::basis_of(
                    body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
-               *stage.statics, stage.generators.modes, reduced);
+               *stage.statics, stage.modes_with_damping(), reduced);
   reduced.report.seconds_projection = MPI_Wtime() - start;
 }
 

@@ -10,7 +10,9 @@
 #include "floe/assembly/body_stage.h"
 #include "floe/dynamics/damping.h"
 #include "floe/fem/joint_frame.h"
+#include "floe/plan/attachments.h"
 #include "floe/plan/hold_by_joint.h"
+#include "floe/plan/interface.h"
 
 namespace floe::assembly {
 
@@ -81,33 +83,38 @@ fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>
   return without_dependent(body.structure, constrained);
 }
 
+std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  const std::vector<double>& ratios = body.spec.damping.modal;
+  if (ratios.empty() || in_several_frames(body) || !body.interface.empty() || of_frame(body)) return {};
+  const fem::Conditions constrained = constrained_for_damping(plan, index);
+  int same = constrained == without_dependent(body.structure, constrained_by_modes(plan, index));
+  MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, body.structure.mesh.comm);
+  if (same != 0) return {};
+  const fem::Holding holding = fem::holding(body.structure, body.frame, constrained);
+  const reduction::Statics statics(body.structure, body.frame, holding);
+  reduction::ModeSolver solver(body.structure, body.frame, holding, statics);
+  return solver.solve(static_cast<int>(std::min<PetscInt>(std::ssize(ratios), solver.available())));
+}
+
 std::string damping_without_joints(const Plan& plan, int index, const ReducedBody& reduced) {
   const PlannedBody& body = plan.bodies[index];
-  const bool of_file = body.spec.reduced.has_value();
-  if (of_file) {
-    if (reduced.report.file_version < 3) return "";  // beta is not in the file, and cannot be separated
-    const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
-    if (!(reduced.damping.norm() > 1e-9 * reduced.strain_rate_damping * K.norm())) return "";
-  } else if (body.spec.damping.modal.empty() || in_several_frames(body) ||
-             body.frame.kind == fem::ReferenceFrame::Kind::clamped) {
-    return "";
-  }
+  if (reduced.report.file_version < 3) return "";  // beta is not in the file, and cannot be separated
+  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+  if (!(reduced.damping.norm() > 1e-9 * reduced.strain_rate_damping * K.norm())) return "";
   const Joint* to_body = nullptr;
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     for (const int side : {0, 1}) {
       if (plan.joints[j][side].body != index || !holds(plan.scene.joints[j])) continue;
       if (plan.joints[j][1 - side].ground()) return "";
-      if (of_file || plan.scene.joints[j].kind == Joint::Kind::fixed ||
-          plan.scene.joints[j].kind == Joint::Kind::driven)
-        to_body = &plan.scene.joints[j];
+      to_body = &plan.scene.joints[j];
     }
   if (!to_body) return "";
   return fmt::format(
-      "body {}: {} is that of the free body, without joint {} to another body: vibrations on this joint can be damped "
-      "far too little. damping.stiffness has no such limit, nor has damping.mass{}",
-      body.spec.name,
-      of_file ? "the mass-proportional and modal damping in " + body.spec.reduced->path : "damping.modal",
-      to_body->name, of_file ? " of a body with a mesh in the scene" : "");
+      "body {}: the mass-proportional and modal damping in {} is that of the free body, without joint {} to another "
+      "body: vibrations on this joint can be damped far too little. damping.stiffness has no such limit, nor have "
+      "damping.mass and damping.modal of a body with a mesh in the scene",
+      body.spec.name, body.spec.reduced->path, to_body->name);
 }
 
 fem::Conditions without_dependent(const fem::Structure& structure, const fem::Conditions& constrained) {

@@ -17,7 +17,7 @@ std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan
   Stage stage;
   BodyReport report;
   begin_stage(plan, index, count_of_modes(body), stage, report);
-  const reduction::Modes& modes = stage.generators.modes;
+  const reduction::Modes& modes = stage.modes_with_damping();
   const petsc::MatHandle K = fem::stiffness(body.structure, {});
   reference::ModalDamping damping;
   damping.constrained = constrained;

@@ -82,7 +82,6 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
         "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
         body.spec.name, joint.name, constrained_here ? "modes: {of: joints}, or " : ""));
   }
-  if (std::string line = damping_without_joints(plan, index, {}); !line.empty()) warnings.push_back(std::move(line));
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (constrained_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(

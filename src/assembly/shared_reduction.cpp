@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <map>
 
+#include "floe/assembly/damping.h"
 #include "floe/body/placed_inertia.h"
 #include "floe/fem/assembly.h"
 #include "floe/plan/attachments.h"
+#include "floe/plan/interface.h"
 
 namespace floe::assembly {
 
@@ -31,10 +33,26 @@ std::shared_ptr<reduction::Basis> placed(const fem::Structure& structure, const 
   return result;
 }
 
+/// Whether damping.modal refers to the same modes: other bodies may hold one of two that have the same basis.
+bool same_damping_modes(const Plan& plan, int a, int b) {
+  const fem::Conditions one = constrained_for_damping(plan, a), other = constrained_for_damping(plan, b);
+  const auto by_modes = [&](int index) {
+    return without_dependent(plan.bodies[index].structure, constrained_by_modes(plan, index));
+  };
+  return one == other && one == by_modes(a) && other == by_modes(b);
+}
+
 }  // namespace
 
 std::vector<SharedReduction> shared_reductions(const Plan& plan) {
-  return same_reductions(plan, [&](int body) { return attachments(plan, body); });
+  std::vector<SharedReduction> all = same_reductions(plan, [&](int body) { return attachments(plan, body); });
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (all[b].of < 0 || !has_modal_damping(plan.bodies[b].spec)) continue;
+    int same = same_damping_modes(plan, all[b].of, static_cast<int>(b));
+    MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, plan.comm);
+    if (same == 0) all[b] = {};
+  }
+  return all;
 }
 
 ReducedBody shared_body(const Plan& plan, int index, const SharedReduction& shared, const ReducedBody& original) {

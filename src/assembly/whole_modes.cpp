@@ -129,13 +129,14 @@ WholeModes modes_of(const Plan& plan, std::vector<int> pieces) {
   BodyReport report;
   begin_stage(whole, index, count_of_modes(*at), stage, report);
   const std::vector<double>& ratios = at->spec.damping.modal;
-  std::vector<double> omega = stage.generators.modes.omega;
+  const reduction::Modes& damped = stage.modes_with_damping();
+  std::vector<double> omega = damped.omega;
   omega.resize(std::min(ratios.size(), omega.size()));
   WholeModes modes;
   modes.viscosity.resize(static_cast<Eigen::Index>(omega.size()));
   for (std::size_t i = 0; i < omega.size(); ++i)
     modes.viscosity[static_cast<Eigen::Index>(i)] = 2 * ratios[i] * omega[i];
-  const Field field(*at, stage.generators.modes.shapes);
+  const Field field(*at, damped.shapes);
   for (const int b : pieces) modes.forces.push_back(forces_on(plan.bodies[b], field, omega));
   modes.bodies = std::move(pieces);
   return modes;

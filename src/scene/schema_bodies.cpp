@@ -276,8 +276,9 @@ const SchemaSection damping_section{
          "beta of Rayleigh damping: Kelvin-Voigt damping of the strain rates, damping ratios beta omega/2",
          nonnegative},
         {"modal", Type::numbers, "", "[]",
-         "damping ratios of the first modes that floe modes lists: under joints to the ground, not to other bodies "
-         "(with an interface: fixed-interface modes); with several frames those of the body as a whole",
+         "damping ratios of the first modes of the body under its joints towards the ground (where no joint leads to "
+         "the ground, towards a rigid body); floe modes lists them (with an interface: fixed-interface modes); with "
+         "several frames those of the body as a whole",
          nonnegative},
     }};
 

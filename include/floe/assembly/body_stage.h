@@ -11,6 +11,8 @@ struct Stage {
   std::unique_ptr<reduction::ModeSolver> solver;
   std::vector<reduction::Attachment> attachments;
   reduction::Generators generators;
+  std::optional<reduction::Modes> damped;  ///< modes_for_damping()
+  const reduction::Modes& modes_with_damping() const { return damped ? *damped : generators.modes; }
   reduction::Pairs pairs;
   std::vector<char> left_out;  ///< of the generators; empty: none
 };

@@ -15,8 +15,11 @@ namespace floe::assembly {
 /// hold to the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away
 /// from these. Collective.
 fem::Conditions constrained_for_damping(const Plan& plan, int body);
-/// A warning where modal damping, or from a file mass-proportional damping, is that of a body on no other body, and
-/// this one is joined to some.
+/// The modes that damping.modal refers to, where they are not those of the reduction: with the body held by the joints
+/// of constrained_for_damping(). Collective.
+std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int body);
+/// A warning where the damping of a body from a file, modal or mass-proportional, is that of a body on no other body,
+/// and this one is joined to some.
 std::string damping_without_joints(const Plan& plan, int body, const ReducedBody& reduced);
 /// Likewise of a body of several, `whole`, as one: joints among these do not count.
 fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int body);

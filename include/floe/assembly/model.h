@@ -50,6 +50,7 @@ struct BodyReport {
   int columns = 0;
   int products = 0, omitted_products = 0;  ///< of coordinates in the elastic force
   std::vector<double> omega, residual;
+  std::vector<double> damped = {};            ///< frequencies of modes_for_damping(); empty: the same modes
   int left_out = 0;                           ///< reduction::Modes::left_out
   int free_motions = 0;                       ///< rigid motions that the conditions of the modes leave free
   std::vector<double> intra_deflection = {};  ///< of each mode of a body in space: fem::intra_deflections
