@@ -175,7 +175,8 @@ void compare(const scene::Scene& as_written, const std::vector<Formulation>& for
     output::write_file_atomically(folder.path / "compare.csv", output::to_csv(table));
     output::write_file_atomically(folder.path / "compare.md", output::to_markdown(table));
     fmt::print("{}\n", comparison_text(rows, references, failed, finer, terminal_columns()));
-    fmt::print("Errors: relative L2 norm over the simulated time.");
+    fmt::print("{}", references.empty() ? "No errors: there is no full-order model to compare with."
+                                        : "Errors: relative L2 norm over the simulated time.");
     if (!own.name.empty())
       fmt::print(" The last row is the error of the reference itself, {} with {}.", own.name, own.refined);
     fmt::print("\n");

@@ -221,19 +221,26 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const Plan plan = prepare(part, comm);
   const PlannedBody& body = plan.bodies[0];
   warnings = body.notices;
-  if (body.spec.damping.mass != 0 && scene.bodies.size() > 1)
-    warnings.push_back(
-        fmt::format("body {}: the file stores damping.mass for the body with its joints to the ground; joints to the "
-                    "other {} bodies of the scene are not included",
-                    body.spec.name, scene.bodies.size() - 1));
+  const DampingSpec& damping = body.spec.damping;
+  if ((damping.mass != 0 || !damping.modal.empty()) && scene.bodies.size() > 1)
+    warnings.push_back(fmt::format(
+        "body {}: the file stores {} for the body with its joints to the ground; joints to the other {} bodies of the "
+        "scene are not included",
+        body.spec.name,
+        damping.modal.empty() ? "damping.mass"
+        : damping.mass == 0   ? "damping.modal"
+                              : "damping.mass and damping.modal",
+        scene.bodies.size() - 1));
   if (scene.bodies[index].frames > 1)
-    warnings.push_back(fmt::format("body {}: frames: {} is not used: the file has the whole body in one frame", name,
-                                   scene.bodies[index].frames));
+    warnings.push_back(fmt::format("body {}: frames: {} is not used: the file has the whole body in one frame",
+                                   body.spec.name, scene.bodies[index].frames));
+  std::vector<std::string> supports;
   for (const Joint& joint : part.joints)
-    if (joint.kind == Joint::Kind::support)
-      warnings.push_back(
-          fmt::format("body {}: its basis vectors satisfy support {}, which scenes that use the file cannot have", name,
-                      joint.name));
+    if (joint.kind == Joint::Kind::support) supports.push_back(joint.name);
+  if (!supports.empty())
+    warnings.push_back(
+        fmt::format("body {}: its basis vectors satisfy its supports ({}), which scenes that use the file cannot have",
+                    body.spec.name, fmt::join(supports, ", ")));
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       plan, Formulation::vm_md,

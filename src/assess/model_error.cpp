@@ -341,8 +341,8 @@ class ModelError {
     const double share = time_.left() / time_.of_first(needs_.of(last));
     until_ *= share;
     if (share < min_fraction) {
-      part_.none =
-          fmt::format("{} would take about {:.2g} s (limit {:.2g} s)", name_, time_.of_first(needs_.whole()), allowed_);
+      part_.none = fmt::format("{} would take about {:.2g} s ({:.2g} s are left of the limit of {:.2g} s)", name_,
+                               time_.of_first(needs_.whole()), std::max(0., time_.left()), allowed_);
       return std::nullopt;
     }
     return last;

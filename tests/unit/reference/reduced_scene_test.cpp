@@ -38,7 +38,7 @@ probes:
 const std::string rod = R"yaml(
     mesh: {polyline: {points: [[0, 0], [0.1, 0.1], [0.4, 0.1]], elements: [3, 9]}}
     section: {EA: 1e5, EI: 1, rhoA: 0.4, rhoI: 1e-5}
-    damping: {modal: [$modal]}
+    damping: {stiffness: $beta}
     frame: {type: $frame}
     reduction: {modes: {count: 3, alone: 3}})yaml";
 
@@ -115,7 +115,7 @@ void check_same(const History& a, const History& b, double tolerance) {
 TEST_CASE("a mechanism moves with a body from a file as with its mesh") {
   for (const char* frame : {"pinned", "clamped", "mean-axis"}) {
     INFO(frame);
-    const Pair scenes(mechanism, "rod", fill(rod, {{"frame", frame}, {"modal", "0.01, 0.02"}}));
+    const Pair scenes(mechanism, "rod", fill(rod, {{"frame", frame}, {"beta", "1e-4"}}));
     for (const Formulation formulation : {Formulation::vm_md, Formulation::vm})
       check_same(move(scenes.from_file, formulation), move(scenes.meshed, formulation), 1e-10);
   }
@@ -155,7 +155,7 @@ TEST_CASE("a file made on all ranks moves as the mesh does on one") {
 }
 
 TEST_CASE("lffr of a body from a file is the linear body, beside bodies of full order") {
-  const Pair arm(mechanism, "rod", fill(rod, {{"frame", "pinned"}, {"modal", ""}}));
+  const Pair arm(mechanism, "rod", fill(rod, {{"frame", "pinned"}, {"beta", "0"}}));
   const History linear = move(arm.from_file, Formulation::lffr), full = move(arm.meshed, Formulation::lffr);
   CHECK(linear.model.coordinates < full.model.coordinates);
   CHECK(relative_error(linear, full, "tip.x") < 0.01);
@@ -181,7 +181,7 @@ TEST_CASE("frequencies of a body from a file are those of its mesh, and derivati
   const std::vector<double> file = omega(constrained.from_file), mesh = omega(constrained.meshed);
   REQUIRE(file.size() == mesh.size());
   for (std::size_t i = 0; i < file.size(); ++i) CHECK(file[i] == Approx(mesh[i]).epsilon(1e-10));
-  const Pair arm(mechanism, "rod", fill(rod, {{"frame", "pinned"}, {"modal", "0.01"}}));
+  const Pair arm(mechanism, "rod", fill(rod, {{"frame", "pinned"}, {"beta", "1e-4"}}));
   std::string chosen = arm.from_file;
   chosen.replace(chosen.find("alone: 2}"), 9, "alone: 2}, derivatives: 1");
   CHECK(history_of(chosen, Formulation::vm_md).model.bodies.at(0).columns <
