@@ -53,11 +53,13 @@ VectorXd factored(Sparse& J, VectorXd b) {
   return x;
 }
 
-/// J x = b on the first rank; where J is small the solution of least norm, which singular directions leave alone. Not
-/// finite where there is none. Collective.
+/// J x = b on the first rank; zero where b is round-off, whatever J is; where J is small the solution of least norm,
+/// which singular directions leave alone. Not finite where there is none. Collective.
 VectorXd solve(Sparse J, const VectorXd& b, MPI_Comm comm) {
   constexpr Index small = 400;
   VectorXd x = VectorXd::Zero(b.size());
+  const VectorXd rows = J.cwiseAbs() * VectorXd::Ones(J.cols());
+  if ((b.cwiseAbs().array() <= 1e-15 * rows.array()).all()) return x;
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank == 0) try {

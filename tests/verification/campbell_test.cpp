@@ -419,6 +419,30 @@ TEST_CASE("campbell: at rest the frequencies are those of the supported body") {
   }
 }
 
+// Nothing holds the second plate's rotation on the hinge: the tangent is singular, and nothing acts.
+TEST_CASE("campbell: two hinged plates at rest, in full-order models, too") {
+  const std::string text = R"yaml(
+bodies:
+  a:
+    mesh: {plate: {along: [0.6, 0, 0], across: [0, 0.4, 0], elements: [6, 4], cells: quadrilaterals}}
+    section: {thickness: 0.004}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 6, derivatives: none, attachment: all}
+  b: {like: a, initial: {position: [0.6, 0, 0]}}
+joints:
+  w: {type: revolute, between: [a.right, b.left], axis: [0, 1, 0]}
+  r: {type: driven, between: [ground, a.left], axis: [1, 0, 0], angle: "0"}
+motion: {end: 1, step: 1e-3}
+)yaml";
+  const auto exact = omega(diagram(text, Formulation::cfr, "0", 3).points.at(0));
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    INFO(name_of(formulation));
+    const auto found = omega(diagram(text, formulation, "0", 3).points.at(0));
+    CHECK(found.at(0) < 1e-3 * exact.at(1));
+    for (int i : {1, 2}) CHECK(found.at(i) == Approx(exact.at(i)).epsilon(0.01));
+  }
+}
+
 // A disk (m, J about its axis, J/2 across) on a massless cantilever: bending by the flexibility [L^3/3, L^2/2; L^2/2,
 // L] / EI of its end. The shaft weighs 1.6e-7 of 5 kg, and its own frequencies are up to 1e7 times higher: round-off of
 // its stiffness, eps (omega_max / omega_1)^2, must not reach the first.
