@@ -419,6 +419,33 @@ TEST_CASE("campbell: at rest the frequencies are those of the supported body") {
   }
 }
 
+// Above its critical speed a shaft with an unbalance e = 1 mm has two steady rotations: the one of the linear theory,
+// (K - Omega^2 M) q = m e Omega^2, and one that hardens to 0.3 m, which cfr follows from rest.
+TEST_CASE("campbell: the steady rotation of another branch in cfr is reported, not compared") {
+  const auto found = diagram(R"yaml(
+bodies:
+  a:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 8}}
+    section: {shape: circle, radius: 0.01, orientation: [0, 1, 0]}
+    material: {E: 2.1e11, nu: 0.3, rho: 7800}
+    reduction: {modes: 6, derivatives: all}
+  d: {rigid: {mass: 5, centre: [0.5, 0.001, 0], inertia: [1e-3, 6e-4, 6e-4]}}
+joints:
+  l: {type: driven, between: [ground, a.start], axis: [1, 0, 0], angle: "300*t"}
+  e: {type: cylindrical, between: [ground, a.end], axis: [1, 0, 0]}
+  w: {type: fixed, between: [a.middle, {body: d, node: [0.5, 0, 0]}]}
+motion: {end: 0.2, step: 5e-4}
+)yaml",
+                             Formulation::vm_md, "300", 2);
+  const auto& warnings = found.model.warnings;
+  const auto reported = [&](const std::string& text) {
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  };
+  CHECK(reported("(cfr) on the same mesh is another one"));
+  CHECK_FALSE(reported("frequency 1 is"));
+}
+
 // Nothing holds the second plate's rotation on the hinge: the tangent is singular, and nothing acts.
 TEST_CASE("campbell: two hinged plates at rest, in full-order models, too") {
   const std::string text = R"yaml(
