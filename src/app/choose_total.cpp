@@ -47,12 +47,8 @@ class TotalSearch {
     if (!exact_.none.empty()) return without_exact();
     decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
            fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
-    if (exact_.error > (1 - least_left) * asked_) {
-      if (own_ && exact_.error > no_measure)
-        return own_model(fmt::format(
-            "no model is selected by a reference whose error is above {}: take a smaller motion.step, or loads and "
-            "drives that begin smoothly",
-            math::percent(no_measure)));
+    if (exact_.error > 0.5 * asked_) {
+      if (exact_.error > no_measure) return by_no_reference();
       accuracy_ = 2 * exact_.error;
       decisions_.back().reason +=
           fmt::format(", too large for the accuracy requested; models are selected for {}", math::percent(accuracy_));
@@ -67,7 +63,8 @@ class TotalSearch {
     explain_discretisation();
     const scene::Scene scene = discretised(scene_, chosen_);
     Chosen chosen = choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step});
-    if (chosen.supported <= asked_ || error_of_own() >= chosen.supported) return finished(std::move(chosen));
+    if (chosen.supported <= asked_ || !(error_of_own() < chosen.supported)) return finished(std::move(chosen));
+    decisions_.resize(1);  // the reference
     return own_model(fmt::format("the selected model ({}; {}) has {}", words(chosen_), summary_of(chosen),
                                  math::percent(chosen.supported)));
   }
@@ -193,9 +190,14 @@ class TotalSearch {
     return bodies;
   }
 
+  /// Error that frames, elements and strains may have: part of the accuracy, and of what the reference leaves of it.
+  double of_discretisations() const {
+    return std::min(of_discretisation * accuracy_, 0.9 * (0.9 * accuracy_ - exact_.error));
+  }
+
   /// Each time what reduces the error most: frames, elements or strains.
   void choose_frames_and_elements() {
-    const double wanted = of_discretisation * accuracy_;
+    const double wanted = of_discretisations();
     double error = error_of(chosen_);
     while (error > wanted) {
       Discretisation best = chosen_;
@@ -225,7 +227,7 @@ class TotalSearch {
 
   /// Where full order is expensive: elements by what meshes do to formulation cfr.
   void choose_elements() {
-    const double wanted = of_discretisation * accuracy_;
+    const double wanted = of_discretisations();
     int halvings = 0;
     while (halvings + 1 < static_cast<int>(exact_.of_mesh.size()) && exact_.of_mesh[halvings] > wanted) ++halvings;
     for (std::size_t b = 0; b < chosen_.size(); ++b)
@@ -326,7 +328,22 @@ class TotalSearch {
     return left;
   }
 
-  double error_of_own() const { return own_ ? worst_error(own_->series, exact_.series) + exact_.error : impossible; }
+  /// Of the scene's own model, to the end of the reference.
+  double error_of_own() const {
+    if (!own_ || std::abs(own_->series.t.back() - exact_.series.t.back()) > 2 * scene_.motion.step) return impossible;
+    const double error = worst_error(own_->series, exact_.series) + exact_.error;
+    return std::isfinite(error) ? error : impossible;
+  }
+
+  Chosen by_no_reference() {
+    const std::string why = fmt::format(
+        "no model is selected by a reference whose error is above {}: take a smaller motion.step, or loads "
+        "and drives that begin smoothly",
+        math::percent(no_measure));
+    if (error_of_own() < impossible) return own_model(why);
+    exact_.none = why;
+    return without_exact();
+  }
 
   /// The scene's own model.
   Chosen own_model(const std::string& why) {

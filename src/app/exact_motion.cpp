@@ -136,7 +136,13 @@ class Refinement {
 }  // namespace
 
 void add_difference(Series& y, double factor, const Series& a, const Series& b) {
-  const std::size_t count = std::min({y.values.size(), a.values.size(), b.values.size()});
+  const std::size_t most = std::min({y.values.size(), a.values.size(), b.values.size()});
+  const auto same = [&](std::size_t i) {  // not where an event ends them at different times
+    const double near = 1e-9 * std::max(1e-300, std::abs(y.t[i]));
+    return std::abs(a.t[i] - y.t[i]) <= near && std::abs(b.t[i] - y.t[i]) <= near;
+  };
+  std::size_t count = 0;
+  while (count < most && same(count)) ++count;
   y.t.resize(count), y.values.resize(count), y.energy.resize(std::min(count, y.energy.size()));
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < y.values[i].size(); ++c) y.values[i][c] += factor * (a.values[i][c] - b.values[i][c]);
