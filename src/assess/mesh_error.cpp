@@ -38,7 +38,7 @@ class MeshError {
     const ErrorPart empty = part_;
     const std::string fault = petsc::failed_together(motion_.comm, [&] { add(reduced()); });
     if (!fault.empty()) part_ = empty, part_.none = fault;  // the other mesh has other basis vectors, for example
-    if (!is_reduced(motion_.model.formulation) || (fault.empty() && !crowded())) return;
+    if (!is_reduced(motion_.model.formulation) || !(fault.empty() ? crowded() : small())) return;
     if (!(time_.of_first(worst(part_)) > doubtful)) return;
     ErrorPart first = std::move(part_);
     part_ = empty;
@@ -98,6 +98,14 @@ class MeshError {
     });
   }
 
+  /// Whether full-order models take little time.
+  bool small() const {
+    constexpr PetscInt most = 3000;
+    PetscInt dofs = 0;
+    for (const BodyReport& report : motion_.model.bodies) dofs += report.dofs;
+    return (finer_ ? static_cast<PetscInt>(growth(other_)) : 1) * dofs <= most;
+  }
+
   Model built_on_other(Formulation formulation) const {
     try {
       return built(motion_, other_, formulation);
@@ -124,11 +132,10 @@ class MeshError {
   std::optional<Two> full_order() {
     part_.by += ", in full-order models";
     solve::Integration how = motion_.how;
-    const Model same = built(motion_, motion_.scene, Formulation::nlffr);
+    const Model model = built_on_other(Formulation::nlffr), same = built(motion_, motion_.scene, Formulation::nlffr);
     ProbeHistory one = simulate(motion_.scene, same, how, time_.spent() + 0.4 * time_.left());
     if (!one.stopped.empty() && fails(one)) return std::nullopt;
     how.end = one.reached;
-    const Model model = built_on_other(Formulation::nlffr);
     ProbeHistory other = simulate(other_, model, how, 2 * allowed_);
     if (fails(other)) return std::nullopt;
     return Two{{probe_columns(model), std::move(other.values)}, {probe_columns(same), std::move(one.values)}};
