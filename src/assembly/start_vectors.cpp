@@ -27,6 +27,7 @@ double size_of_shape(const PlannedBody& body, Vec shape, double linear) {
   reduction::Columns alone;
   alone.push_back(reduction::copy(shape));
   const reduction::Basis basis = reduction::orthonormal_basis(body.structure, alone, {{}}, 0);
+  if (basis.columns == 0) return linear;
   const Eigen::VectorXd eta = Eigen::VectorXd::Constant(1, basis.norms[0]);
   return std::min(linear, std::sqrt(2 * body::energy(reduction::project(body.structure, basis).elasticity, eta)));
 }

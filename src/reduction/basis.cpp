@@ -249,8 +249,11 @@ void drop_round_off(const fem::Structure& structure, const fem::FieldRows& X, st
     return;
   Eigen::VectorXd energies = fem::ElementStiffness(structure).gram(X).diagonal();
   MPI_Bcast(energies.data(), static_cast<int>(energies.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
-  for (const auto& [i, of_shells] : stiff)  // where the shells have less than half of it, others are as stiff
-    if (of_shells >= 0.5 * energies[i]) columns[i] = {.share = 0, .kept = false};
+  for (const auto& [i, of_shells] : stiff) {  // where the shells have less than half of it, others are as stiff
+    if (of_shells < 0.5 * energies[i]) continue;
+    columns[i] = {.share = 0, .kept = false};
+    origins[static_cast<std::size_t>(i)].dropped = "it has no mass but round-off";
+  }
   drop_rigid(energies, columns, origins);
 }
 
