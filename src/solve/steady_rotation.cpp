@@ -53,13 +53,11 @@ VectorXd factored(Sparse& J, VectorXd b) {
   return x;
 }
 
-/// J x = b on the first rank; zero where b is round-off, whatever J is; where J is small the solution of least norm,
+/// J x = b on the first rank; where J is small the solution of least norm,
 /// which singular directions leave alone. Not finite where there is none. Collective.
 VectorXd solve(Sparse J, const VectorXd& b, MPI_Comm comm) {
   constexpr Index small = 400;
   VectorXd x = VectorXd::Zero(b.size());
-  const VectorXd rows = J.cwiseAbs() * VectorXd::Ones(J.cols());
-  if ((b.cwiseAbs().array() <= 1e-15 * rows.array()).all()) return x;
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   if (rank == 0) try {
@@ -192,12 +190,20 @@ double size_of(const VectorXd& change, const MassScale& mass) {
   return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.rotation;
 }
 
+/// Whether nothing acts and the constraints are satisfied, but for round-off of the positions: what J is then is no
+/// matter, which may be singular (a hinge without stiffness at rest).
+bool is_still(const RotatingTangent& at, const VectorXd& u) {
+  const VectorXd sizes = (at.K.cwiseAbs() + at.G.cwiseAbs()) * u.cwiseAbs();
+  return (at.F.cwiseAbs().array() <= 1e-14 * sizes.array()).all();
+}
+
 PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   double last = INFINITY;
   bool free = false;
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
     const VectorXd u = gather_to_all(rotating.system, U);
+    if (iteration == 1 && is_still(at, u)) return 0;
     VectorXd rotation = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = rotates_freely(at, rotation);
     if (!free) rotation.setZero();
