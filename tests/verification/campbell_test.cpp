@@ -446,6 +446,24 @@ motion: {end: 0.2, step: 5e-4}
   CHECK_FALSE(reported("frequency 1 is"));
 }
 
+// Without vectors that stretch the blade it has no centrifugal stiffness: the same state, and other frequencies.
+TEST_CASE("campbell: a basis without axial stretch is reported by its frequencies") {
+  const auto found = diagram(R"yaml(
+bodies:
+  a:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 6}}
+    section: {shape: rectangle, width: 0.03, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 2.1e11, nu: 0.3, rho: 7800}
+    reduction: {modes: 4, derivatives: none}
+joints: {l: {type: driven, between: [ground, a.start], axis: [0, 0, 1], angle: "300*t"}}
+motion: {end: 0.2, step: 5e-4}
+)yaml",
+                             Formulation::vm_md, "300", 2);
+  const auto& warnings = found.model.warnings;
+  CHECK(std::any_of(warnings.begin(), warnings.end(),
+                    [&](const std::string& line) { return line.find("frequency 1 is") != std::string::npos; }));
+}
+
 // Nothing holds the second plate's rotation on the hinge: the tangent is singular, and nothing acts.
 TEST_CASE("campbell: two hinged plates at rest, in full-order models, too") {
   const std::string text = R"yaml(
