@@ -1,6 +1,7 @@
 #include "floe/assembly/damping.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <deque>
@@ -83,18 +84,62 @@ fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>
   return without_dependent(body.structure, constrained);
 }
 
-std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int index) {
+namespace {
+
+/// Whether damping.modal refers to modes of the body by itself: not of its pieces, nor of an interface or a frame.
+bool by_joints(const PlannedBody& body) {
+  return has_modal_damping(body.spec) && !in_several_frames(body) && body.interface.empty() && !of_frame(body);
+}
+
+}  // namespace
+
+std::optional<fem::Conditions> conditions_for_damping(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
-  const std::vector<double>& ratios = body.spec.damping.modal;
-  if (ratios.empty() || in_several_frames(body) || !body.interface.empty() || of_frame(body)) return {};
-  const fem::Conditions constrained = constrained_for_damping(plan, index);
+  if (!by_joints(body)) return {};
+  fem::Conditions constrained = constrained_for_damping(plan, index);
   int same = constrained == without_dependent(body.structure, constrained_by_modes(plan, index));
   MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, body.structure.mesh.comm);
-  if (same != 0) return {};
-  const fem::Holding holding = fem::holding(body.structure, body.frame, constrained);
+  return same != 0 ? std::nullopt : std::optional(std::move(constrained));
+}
+
+std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  const std::optional<fem::Conditions> constrained = conditions_for_damping(plan, index);
+  if (!constrained) return {};
+  const fem::Holding holding = fem::holding(body.structure, body.frame, *constrained);
   const reduction::Statics statics(body.structure, body.frame, holding);
   reduction::ModeSolver solver(body.structure, body.frame, holding, statics);
-  return solver.solve(static_cast<int>(std::min<PetscInt>(std::ssize(ratios), solver.available())));
+  return solver.solve(static_cast<int>(std::min<PetscInt>(std::ssize(body.spec.damping.modal), solver.available())));
+}
+
+reduction::Modes all_modes_for_damping(const Plan& plan, int index) {
+  if (std::optional<reduction::Modes> damped = modes_for_damping(plan, index)) return std::move(*damped);
+  Stage stage;
+  BodyReport report;
+  begin_stage(plan, index, count_of_modes(plan.bodies[index]), stage, report);
+  return std::move(stage.generators.modes);
+}
+
+std::string damping_with_free_joints(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  if (!by_joints(body)) return "";
+  constexpr int far = std::numeric_limits<int>::max();
+  const std::vector<int> away = distances(plan);
+  std::vector<std::string> free;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    for (const int side : {0, 1}) {
+      const Anchor &here = plan.joints[j][side], &there = plan.joints[j][1 - side];
+      if (here.body != index || there.body < 0 || !holds(plan.scene.joints[j])) continue;
+      fem::Conditions held;
+      if (away[index] == far ||
+          (away[there.body] < away[index] && (here.map || !hold_place_by_joint(plan, j, here, held))))
+        free.push_back(plan.scene.joints[j].name);
+    }
+  if (free.empty()) return "";
+  return fmt::format(
+      "body {}: damping.modal refers to modes that joint{} {} to other bodies {} not hold, or in part: vibrations on "
+      "them can be damped far too little. damping.stiffness has no such limit",
+      body.spec.name, free.size() > 1 ? "s" : "", fmt::join(free, ", "), free.size() > 1 ? "do" : "does");
 }
 
 std::string damping_without_joints(const Plan& plan, int index, const ReducedBody& reduced) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "floe/assembly/body_stage.h"
+#include "floe/assembly/damping.h"
 
 namespace floe::assembly {
 
@@ -14,10 +14,7 @@ std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan
   const PlannedBody& body = plan.bodies[index];
   const std::vector<double>& ratios = body.spec.damping.modal;
   if (ratios.empty() || body.spec.piece > 0) return std::nullopt;  // of pieces: WholeModes
-  Stage stage;
-  BodyReport report;
-  begin_stage(plan, index, count_of_modes(body), stage, report);
-  const reduction::Modes& modes = stage.modes_with_damping();
+  const reduction::Modes modes = all_modes_for_damping(plan, index);
   const petsc::MatHandle K = fem::stiffness(body.structure, {});
   reference::ModalDamping damping;
   damping.constrained = constrained;

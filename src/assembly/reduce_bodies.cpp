@@ -82,6 +82,7 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
         "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
         body.spec.name, joint.name, constrained_here ? "modes: {of: joints}, or " : ""));
   }
+  if (std::string line = damping_with_free_joints(plan, index); !line.empty()) warnings.push_back(std::move(line));
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (constrained_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(
@@ -103,11 +104,19 @@ void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shar
     const auto [at, first] = most.try_emplace(whole_name(spec), b);
     if (!first && all[b].report.products > all[at->second].report.products) at->second = b;
   }
-  for (const auto& [name, b] : most)
+  for (const auto& [name, b] : most) {
+    const auto dofs = plan.bodies[b].structure.dofs();
+    const std::string full = 2 * all[b].report.columns > dofs
+                                 ? fmt::format(
+                                       "; with {} basis vectors for {} dofs the full-order models (nlffr, cfr) "
+                                       "can be faster, or take fewer derivatives (derivatives: 8)",
+                                       all[b].report.columns, dofs)
+                                 : "";
     warnings.push_back(fmt::format(
         "body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
-        "(reduction) omits those that hardly move the body, products: all keeps them and silences this warning",
-        plan.bodies[b].spec.name, all[b].report.products));
+        "(reduction) omits those that hardly move the body, products: all keeps them and silences this warning{}",
+        plan.bodies[b].spec.name, all[b].report.products, full));
+  }
 }
 
 /// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static

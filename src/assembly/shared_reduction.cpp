@@ -7,7 +7,6 @@
 #include "floe/body/placed_inertia.h"
 #include "floe/fem/assembly.h"
 #include "floe/plan/attachments.h"
-#include "floe/plan/interface.h"
 
 namespace floe::assembly {
 
@@ -34,12 +33,9 @@ std::shared_ptr<reduction::Basis> placed(const fem::Structure& structure, const 
 }
 
 /// Whether damping.modal refers to the same modes: other bodies may hold one of two that have the same basis.
-bool same_damping_modes(const Plan& plan, int a, int b) {
-  const fem::Conditions one = constrained_for_damping(plan, a), other = constrained_for_damping(plan, b);
-  const auto by_modes = [&](int index) {
-    return without_dependent(plan.bodies[index].structure, constrained_by_modes(plan, index));
-  };
-  return one == other && one == by_modes(a) && other == by_modes(b);
+bool same_damping_modes(const Plan& plan, int a, int b, const fem::Placement& placement) {
+  const std::optional<fem::Conditions> one = conditions_for_damping(plan, a), other = conditions_for_damping(plan, b);
+  return one == other && !(one && placement.rotates);
 }
 
 }  // namespace
@@ -48,7 +44,7 @@ std::vector<SharedReduction> shared_reductions(const Plan& plan) {
   std::vector<SharedReduction> all = same_reductions(plan, [&](int body) { return attachments(plan, body); });
   for (std::size_t b = 0; b < all.size(); ++b) {
     if (all[b].of < 0 || !has_modal_damping(plan.bodies[b].spec)) continue;
-    int same = same_damping_modes(plan, all[b].of, static_cast<int>(b));
+    int same = same_damping_modes(plan, all[b].of, static_cast<int>(b), all[b].placement);
     MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, plan.comm);
     if (same == 0) all[b] = {};
   }

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <map>
 
-#include "floe/assembly/body_stage.h"
+#include "floe/assembly/damping.h"
 #include "floe/assembly/offline.h"
 #include "floe/assembly/residual_loads.h"
 #include "floe/dynamics/damping.h"
@@ -125,11 +125,8 @@ WholeModes modes_of(const Plan& plan, std::vector<int> pieces) {
   const auto at = std::find_if(whole.bodies.begin(), whole.bodies.end(),
                                [&](const PlannedBody& body) { return body.spec.name == name; });
   const int index = static_cast<int>(at - whole.bodies.begin());
-  Stage stage;
-  BodyReport report;
-  begin_stage(whole, index, count_of_modes(*at), stage, report);
+  const reduction::Modes damped = all_modes_for_damping(whole, index);
   const std::vector<double>& ratios = at->spec.damping.modal;
-  const reduction::Modes& damped = stage.modes_with_damping();
   std::vector<double> omega = damped.omega;
   omega.resize(std::min(ratios.size(), omega.size()));
   WholeModes modes;

@@ -93,25 +93,25 @@ fem::ReferenceFrame::Kind kind_of(FrameSpec::Kind kind) {
   }
 }
 
-/// Dofs that a joint to the ground holds at a node, in the axes of the frame.
-void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& constrained) {
+/// Dofs that a joint to the ground holds at a node, in the axes of the frame. @return  whether they hold all of it
+bool hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& constrained) {
   switch (joint.kind) {
     case Joint::Kind::fixed:
     case Joint::Kind::driven:
       constrained.insert(constrained.end(), {3 * node, 3 * node + 1, 3 * node + 2});
-      break;
+      return true;
     case Joint::Kind::revolute:
       constrained.insert(constrained.end(), {3 * node, 3 * node + 1});
-      break;
+      return true;
     case Joint::Kind::prismatic: {
       constrained.push_back(3 * node + 2);
       const Eigen::Vector2d axis = rotation_matrix(-frame_angle) * planar(joint.axis).normalized();
       if (std::abs(axis.y()) < 1e-9) constrained.push_back(3 * node + 1);
       if (std::abs(axis.x()) < 1e-9) constrained.push_back(3 * node);
-      break;
+      return axis.cwiseAbs().minCoeff() < 1e-9;
     }
     default:  // springs hold nothing; the other kinds are of space
-      break;
+      return false;
   }
 }
 
@@ -182,10 +182,10 @@ int body_index(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-void hold_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place, fem::Conditions& constrained) {
+bool hold_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place, fem::Conditions& constrained) {
   const PlannedBody& body = plan.bodies[place.body];
   if (body.structure.dimension() == 3) return hold_spatial_place_by_joint(plan, joint, place, constrained);
-  hold_by_joint(plan.scene.joints[joint], place.node, body.spec.initial.angle + body.frame_angle, constrained);
+  return hold_by_joint(plan.scene.joints[joint], place.node, body.spec.initial.angle + body.frame_angle, constrained);
 }
 
 Plan prepare(const Scene& scene, MPI_Comm comm) {

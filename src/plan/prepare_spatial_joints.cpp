@@ -272,11 +272,12 @@ void fix_frames(Plan& plan) {
   }
 }
 
-void hold_spatial_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place,
+bool hold_spatial_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place,
                                  fem::Conditions& constrained) {
   try {
-    hold_by_joint(plan.scene.joints[joint], plan.joint_axes[joint], plan.bodies[place.body], place, constrained);
+    return hold_by_joint(plan.scene.joints[joint], plan.joint_axes[joint], plan.bodies[place.body], place, constrained);
   } catch (const InputError&) {  // a hinge that dofs cannot hold
+    return false;
   }
 }
 

@@ -351,6 +351,31 @@ probes: {tip: {at: b.end}}
   CHECK(ratio_of_decay(at.t, at["tip.y"], 0.5) == Approx(0.05).epsilon(0.02));
 }
 
+TEST_CASE("damping: modal, copies that are held alike share their reduction") {
+  for (const std::string reduction : {"modes: 4", "modes: 4, interface: [start]"}) {
+    CAPTURE(reduction);
+    const auto model = assembly::build(scene::parse_scene(fill(R"yaml(
+bodies:
+  hub: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}
+  a:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 6}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    reduction: {$reduction}
+    damping: {modal: [0.05]}
+  b: {like: a, initial: {angle: 2}}
+joints:
+  g: {type: revolute, between: [ground, hub.centre]}
+  j: {type: fixed, between: [hub.centre, a.start]}
+  k: {type: fixed, between: [hub.centre, b.start]}
+motion: {end: 1, step: 0.1}
+)yaml",
+                                                               {{"reduction", reduction}}),
+                                                          "scene"),
+                                       Formulation::vm_md, PETSC_COMM_WORLD);
+    CHECK(model.bodies[2].reduction_of == "a");
+  }
+}
+
 // alpha = 20/s would stop these motions within a tenth of a second.
 TEST_CASE("damping: rigid-body motions permitted by joints are not damped") {
   const int dimension = GENERATE(2, 3);
@@ -503,6 +528,37 @@ probes: {tip: {at: a.end}}
                                                      dynamics::ConstraintLevel::velocity) < 1e-3);
     CHECK(relative_error(history, other, "tip.y") < 0.01);
   }
+}
+
+TEST_CASE("damping: modal, of joints that dofs cannot hold, or that lead nowhere, is reported", "[verification]") {
+  const auto named = [](const std::string& bodies, const std::string& joint) {
+    const auto model =
+        assembly::build(scene::parse_scene(fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    reduction: {modes: 3}
+    damping: {modal: [0.01]}
+  $bodies
+joints: {j: {type: $joint, between: [beam.start, $other]}}
+motion: {end: 1, step: 0.1}
+)yaml",
+                                                {{"bodies", bodies},
+                                                 {"joint", joint},
+                                                 {"other", bodies.starts_with("hub") ? "hub.centre" : "other.end"}}),
+                                           "scene"),
+                        Formulation::vm_md, PETSC_COMM_WORLD);
+    return std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
+      return warning.find("damping.modal refers to modes that joint j") != std::string::npos;
+    });
+  };
+  const std::string hub = "hub: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}",
+                    other = "other: {like: beam, initial: {position: [-1, 0]}}";
+  CHECK_FALSE(named(hub, "prismatic, axis: [0, 1]"));
+  CHECK_FALSE(named(hub, "revolute"));
+  CHECK(named(hub, "prismatic, axis: [1, 1]"));
+  CHECK(named(other, "fixed"));
 }
 
 // A beam on a hub on the ground, damping that a file has of the beam alone: a twentieth here.
