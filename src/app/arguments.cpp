@@ -213,7 +213,7 @@ void add_tradeoff(CLI::App& app, Arguments& given, Work& work) {
   add_folder(command, given);
   command->callback([&given, &work] {
     work = [&given] {
-      if (!given.reference.empty()) given.tradeoff.reference = scene::formulation_of(given.reference);
+      if (!given.reference.empty()) given.tradeoff.reference = scene::formulation_of(given.reference, "--reference");
       if (!given.reference.empty() && given.reference != "nlffr" && given.reference != "cfr")
         throw InputError("--reference: is " + given.reference + "; expected nlffr or cfr, the full-order models");
       tradeoff(read_moving(given.scene), PETSC_COMM_WORLD, given.tradeoff, folder_of(given, "tradeoff"), given.force);

@@ -38,7 +38,7 @@ std::vector<double> parse_values(const std::string& text,
   const std::vector<double> range = numbers(text, ':');
   if (range.size() != 3) throw fault("is not a range of three numbers");
   const double steps = (range[1] - range[0]) / range[2];
-  if (!(steps >= 0)) throw fault("never reaches its end");
+  if (!(steps >= 0) || !std::isfinite(steps)) throw fault("never reaches its end");
   if (steps > most) throw fault(fmt::format("has more than {} numbers", most));
   std::vector<double> speeds;
   for (int i = 0; i <= std::floor(steps + 1e-9); ++i) speeds.push_back(range[0] + i * range[2]);

@@ -94,7 +94,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
     if (body.left_out > 0) fmt::print("Note: {}\n", assembly::left_out_text(body.name, body));
     if (!body.damped.empty())
-      fmt::print("Note: body {}: damping.modal refers to the modes `damped`, in which joints to other bodies hold it\n",
+      fmt::print("Note: body {}: damping.modal refers to the modes `damped`, on its joints towards the ground\n",
                  body.name);
   }
   for (const std::string& notice : notices_of(bodies)) fmt::print("Note: {}\n", notice);

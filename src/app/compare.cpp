@@ -72,7 +72,7 @@ std::vector<Formulation> formulations_to_compare(const scene::Scene& scene, std:
   if (names.empty()) names = names_for(scene);
   std::vector<Formulation> formulations;
   for (const std::string& name : names) {
-    const Formulation one = scene::formulation_of(name);
+    const Formulation one = scene::formulation_of(name, "--formulations");
     if (std::find(formulations.begin(), formulations.end(), one) != formulations.end())
       throw InputError(fmt::format("--formulations: \"{}\" is given twice", name));
     formulations.push_back(one);

@@ -155,7 +155,7 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
   }
   std::vector<EventReport> reports;
   std::size_t last = 0;  // of those that release a joint
-  const auto tell = [&] {
+  const auto report_all = [&] {
     for (const EventReport& report : reports)
       if (how.on_event) how.on_event(report);
   };
@@ -167,11 +167,11 @@ bool act(TS ts, const Integration& how, MotionContext& context, double nominal) 
       stopped = stopped || context.events[i].stops;
     }
     if (before) reports[last].released = give_way(context.system, t, h, U, before, V);
-  } catch (const RunError&) {  // on all ranks: what has happened before is told
-    tell();
+  } catch (const RunError&) {  // on all ranks: what has happened before is reported
+    report_all();
     throw;
   }
-  tell();
+  report_all();
   const bool applied = !due.empty();
   if (!kinks.any && !applied) return true;
   if (!kinks.velocities && !applied) check(TSGeneralizedAlphaSetForcesJump(ts));

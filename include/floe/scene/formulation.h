@@ -8,8 +8,8 @@ namespace floe::scene {
 /// or to modes and modal derivatives.
 enum class Formulation { cfr, nlffr, lffr, vm, vm_md };
 std::string name_of(Formulation formulation);
-/// @throws InputError  unknown, with the nearest name
-Formulation formulation_of(const std::string& name);
+/// @param option  that has the name. @throws InputError  unknown, with the nearest name
+Formulation formulation_of(const std::string& name, const std::string& option = "--formulation");
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
