@@ -93,6 +93,9 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
 
 /// From so many on they take most of a step (docs/benchmarks/online.md).
 constexpr int many_products = 300;
+/// Coefficients of F for each dof from which on a step takes longer than that of the full-order model: some 17 ns each
+/// (110 vectors of 8 x 2 quadrilaterals, 4.8 million: 80 ms), and 17 us for each dof (2.7 ms), of beams less.
+constexpr Eigen::Index slower = 2000;
 
 /// Of the pieces of a body, of the one that has most.
 void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shared, const std::vector<ReducedBody>& all,
@@ -106,7 +109,7 @@ void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shar
   }
   for (const auto& [name, b] : most) {
     const auto dofs = plan.bodies[b].structure.dofs();
-    const std::string full = 2 * all[b].report.columns > dofs
+    const std::string full = all[b].body.elasticity.F.size() > slower * dofs
                                  ? fmt::format(
                                        "; with {} basis vectors for {} dofs the full-order models (nlffr, cfr) "
                                        "can be faster, or take fewer derivatives (derivatives: 8)",

@@ -77,3 +77,28 @@ probes: {tip: {at: beam.end, quantity: deflection}}
   INFO(fmt::format("error with all {:.3g}, with few {:.3g}", all, few));
   CHECK(few < 1.2 * all + 1e-3);
 }
+
+// Of a plate of 162 dofs 110 vectors with 6,105 products take 80 ms a step, and the full-order model 2.7 ms.
+TEST_CASE("products: bases that are slower than full-order models are reported") {
+  const auto reported = [](const std::string& reduction) {
+    const auto model = assembly::build(scene::parse_scene(fill(R"yaml(
+bodies:
+  p:
+    mesh: {plate: {along: [0.8, 0, 0], across: [0, 0.2, 0], elements: [8, 2], cells: quadrilaterals}}
+    section: {thickness: 0.003}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    strains: second_order
+    frame: mean-axis
+    reduction: {modes: 4, $reduction}
+motion: {end: 1, step: 1e-3}
+)yaml",
+                                                               {{"reduction", reduction}}),
+                                                          "scene"),
+                                       Formulation::vm_md, PETSC_COMM_WORLD);
+    return std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& line) {
+      return line.find("full-order models (nlffr, cfr) can be faster") != std::string::npos;
+    });
+  };
+  CHECK(reported("derivatives: all, interface: [left, p3]"));
+  CHECK_FALSE(reported("derivatives: all"));
+}
