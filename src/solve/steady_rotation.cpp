@@ -53,8 +53,8 @@ VectorXd factored(Sparse& J, VectorXd b) {
   return x;
 }
 
-/// J x = b on the first rank; where J is small the solution of least norm,
-/// which singular directions leave alone. Not finite where there is none. Collective.
+/// J x = b on the first rank; where J is small the solution of least norm, which singular directions leave alone. Not
+/// finite where there is none. Collective.
 VectorXd solve(Sparse J, const VectorXd& b, MPI_Comm comm) {
   constexpr Index small = 400;
   VectorXd x = VectorXd::Zero(b.size());
@@ -190,11 +190,15 @@ double size_of(const VectorXd& change, const MassScale& mass) {
   return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.rotation;
 }
 
-/// Whether nothing acts and the constraints are satisfied, but for round-off of the positions: what J is then is no
-/// matter, which may be singular (a hinge without stiffness at rest).
-bool is_still(const RotatingTangent& at, const VectorXd& u) {
-  const VectorXd sizes = (at.K.cwiseAbs() + at.G.cwiseAbs()) * u.cwiseAbs();
-  return (at.F.cwiseAbs().array() <= 1e-14 * sizes.array()).all();
+/// Whether all forces are zero and the constraints are satisfied, but for round-off: no step is needed, and J may be
+/// singular (a hinge without stiffness at rest). Positions and directions of constraints are of the size of one [m, 1].
+bool in_equilibrium(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& u) {
+  const std::vector<char> multiplier = multiplier_flags(rotating.system);
+  const VectorXd forces = at.K.cwiseAbs() * u.cwiseAbs(), constraints = at.G.cwiseAbs() * u.cwiseAbs().cwiseMax(1);
+  for (Index i = 0; i < at.F.size(); ++i)
+    if (!(std::abs(at.F[i]) <= 1e-14 * (multiplier[static_cast<std::size_t>(i)] ? constraints[i] : forces[i])))
+      return false;
+  return true;
 }
 
 PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
@@ -203,7 +207,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
     const VectorXd u = gather_to_all(rotating.system, U);
-    if (iteration == 1 && is_still(at, u)) return 0;
+    if (iteration == 1 && in_equilibrium(rotating, at, u)) return 0;
     VectorXd rotation = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = rotates_freely(at, rotation);
     if (!free) rotation.setZero();
