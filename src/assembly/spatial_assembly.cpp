@@ -114,8 +114,10 @@ void SpatialAssembly::refuse() const {
       faults.push_back(
           fmt::format("{}.deformation: displaces or rotates body {} where the ground clamps it; expected neither there",
                       body.spec.initial.where.text(), body.spec.name));
+    double rates = 0;  // of the deformation at the start [m/s or rad/s]
+    if (body.deformation_rate) check(VecNorm(body.deformation_rate, NORM_INFINITY, &rates));
     if (slots_[b].still && body.parent < 0 &&
-        (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+        std::max(body.rate.norm(), plan_.extent * body.spin.norm()) > 1e-6 * rates)
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which is clamped to the ground; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
   }

@@ -84,6 +84,29 @@ probes: {middle: {at: plate.centre, quantity: position}}
   CHECK(at["middle.z"].front() == Approx(1e-5).epsilon(1e-3));
 }
 
+// Rates c x^2 of a cantilever: m c^2 / 10. Slopes of formulas have round-off, which does not move the clamp.
+TEST_CASE("a cantilever in space starts with the energy of its deformation rate") {
+  const auto cantilever = [](const std::string& rate) {
+    return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0.1, 0.2, 0.3], to: [1.1, 0.2, 0.3], elements: 8}}
+    section: {shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 1e4}
+    frame: clamped
+    reduction: {modes: 4}
+    initial: {rotation: [0.3, 0.2, 0.7], deformation_rate: [0, 0, "$rate"]}
+joints: {j: {type: fixed, between: [ground, beam.start]}}
+motion: {end: 1e-3, step: 1e-3}
+)yaml",
+                {{"rate", rate}});
+  };
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md, Formulation::cfr})
+    CHECK(move(cantilever("1e-2*(x-0.1)^2"), formulation).energy.front().kinetic == Approx(1e-5).epsilon(0.01));
+  CHECK_THROWS_WITH(move(cantilever("1e-2*(x-0.1)"), Formulation::vm_md),
+                    Catch::Contains("gives a velocity to body beam, which is clamped to the ground"));
+}
+
 // The paper's cantilever in one, two and four frames, in the plane and in space: frames that are welded together.
 TEST_CASE("frames: N in space: a cantilever as in the plane") {
   const std::string flat = R"yaml(
