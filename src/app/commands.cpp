@@ -94,8 +94,9 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
     if (body.left_out > 0) fmt::print("Note: {}\n", assembly::left_out_text(body.name, body));
     if (!body.damped.empty())
-      fmt::print("Note: body {}: damping.modal refers to the modes `damped`, on its joints towards the ground\n",
-                 body.name);
+      fmt::print(
+          "Note: body {}: damping.modal refers to the rows `damped`: modes with the joints towards the ground fixed\n",
+          body.name);
   }
   for (const std::string& notice : notices_of(bodies)) fmt::print("Note: {}\n", notice);
   if (matrices) fmt::print("Matrices: {}\n", *matrices);

@@ -266,7 +266,7 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
   project_onto(body,
                std::make_shared<reduction::Basis>(reduction::basis_of(
                    body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
-               *stage.statics, stage.modes_with_damping(), reduced);
+               *stage.statics, stage.modes_of_damping(), reduced);
   reduced.report.seconds_projection = MPI_Wtime() - start;
 }
 

@@ -7,6 +7,7 @@
 
 #include "begin_motion.h"
 #include "drive.h"
+#include "floe/assembly/damping.h"
 #include "floe/assembly/offline.h"
 #include "floe/assembly/reduce_once.h"
 #include "floe/assembly/start_vectors.h"
@@ -187,6 +188,7 @@ void warn_of_scene(const Plan& plan, Model& model) {
   for (std::string& words : middles_beside_nodes(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : loads_in_axes_of_parts(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : smoothed_drives(plan.scene)) model.warnings.push_back(std::move(words));
+  for (std::string& words : damping_with_free_joints(plan)) model.warnings.push_back(std::move(words));
   model.stretched_start = stretched_start(plan, model);
   if (!model.stretched_start.empty()) model.warnings.push_back(model.stretched_start);
 }

@@ -7,6 +7,7 @@
 #include <deque>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "floe/assembly/body_stage.h"
 #include "floe/dynamics/damping.h"
@@ -86,16 +87,16 @@ fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>
 
 namespace {
 
-/// Whether damping.modal refers to modes of the body by itself: not of its pieces, nor of an interface or a frame.
-bool by_joints(const PlannedBody& body) {
-  return has_modal_damping(body.spec) && !in_several_frames(body) && body.interface.empty() && !of_frame(body);
+/// Whether damping.modal refers to modes on the joints of the body: not of an interface or a frame.
+bool has_modes_of_joints(const PlannedBody& body) {
+  return has_modal_damping(body.spec) && body.interface.empty() && !of_frame(body);
 }
 
 }  // namespace
 
 std::optional<fem::Conditions> conditions_for_damping(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
-  if (!by_joints(body)) return {};
+  if (!has_modes_of_joints(body) || in_several_frames(body)) return {};
   fem::Conditions constrained = constrained_for_damping(plan, index);
   int same = constrained == without_dependent(body.structure, constrained_by_modes(plan, index));
   MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, body.structure.mesh.comm);
@@ -113,33 +114,43 @@ std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int index) {
 }
 
 reduction::Modes all_modes_for_damping(const Plan& plan, int index) {
-  if (std::optional<reduction::Modes> damped = modes_for_damping(plan, index)) return std::move(*damped);
+  if (std::optional<reduction::Modes> modes = modes_for_damping(plan, index)) return std::move(*modes);
   Stage stage;
   BodyReport report;
   begin_stage(plan, index, count_of_modes(plan.bodies[index]), stage, report);
   return std::move(stage.generators.modes);
 }
 
-std::string damping_with_free_joints(const Plan& plan, int index) {
-  const PlannedBody& body = plan.bodies[index];
-  if (!by_joints(body)) return "";
+std::vector<std::string> damping_with_free_joints(const Plan& plan) {
   constexpr int far = std::numeric_limits<int>::max();
   const std::vector<int> away = distances(plan);
-  std::vector<std::string> free;
+  std::map<std::string, int> nearest;  // of all pieces of a body
+  for (std::size_t b = 0; b < away.size(); ++b) {
+    int& least = nearest.emplace(whole_name(plan.bodies[b].spec), far).first->second;
+    least = std::min(least, away[b]);
+  }
+  std::map<std::string, std::vector<std::string>> free;  // joints, by body
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     for (const int side : {0, 1}) {
       const Anchor &here = plan.joints[j][side], &there = plan.joints[j][1 - side];
-      if (here.body != index || there.body < 0 || !holds(plan.scene.joints[j])) continue;
+      if (here.body < 0 || there.body < 0 || !holds(plan.scene.joints[j])) continue;
+      const PlannedBody& body = plan.bodies[here.body];
+      const std::string& name = whole_name(body.spec);
+      if (body.spec.rigid || body.spec.reduced || !has_modes_of_joints(body)) continue;
+      if (name == whole_name(plan.bodies[there.body].spec)) continue;
       fem::Conditions held;
-      if (away[index] == far ||
-          (away[there.body] < away[index] && (here.map || !hold_place_by_joint(plan, j, here, held))))
-        free.push_back(plan.scene.joints[j].name);
+      const int least = nearest.at(name);
+      if (least == far || (away[there.body] < least && (here.map || !hold_place_by_joint(plan, j, here, held))))
+        free[name].push_back(plan.scene.joints[j].name);
     }
-  if (free.empty()) return "";
-  return fmt::format(
-      "body {}: damping.modal refers to modes that joint{} {} to other bodies {} not hold, or in part: vibrations on "
-      "them can be damped far too little. damping.stiffness has no such limit",
-      body.spec.name, free.size() > 1 ? "s" : "", fmt::join(free, ", "), free.size() > 1 ? "do" : "does");
+  std::vector<std::string> all;
+  for (const auto& [name, joints] : free)
+    all.push_back(
+        fmt::format("body {}: the modes of damping.modal do not satisfy joint{} {} to another body, or only in part: "
+                    "its vibrations "
+                    "can have less damping than specified. damping.stiffness has no such limit",
+                    name, joints.size() > 1 ? "s" : "", fmt::join(joints, ", ")));
+  return all;
 }
 
 std::string damping_without_joints(const Plan& plan, int index, const ReducedBody& reduced) {

@@ -82,7 +82,6 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
         "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
         body.spec.name, joint.name, constrained_here ? "modes: {of: joints}, or " : ""));
   }
-  if (std::string line = damping_with_free_joints(plan, index); !line.empty()) warnings.push_back(std::move(line));
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (constrained_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(
@@ -93,9 +92,10 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
 
 /// From so many on they take most of a step (docs/benchmarks/online.md).
 constexpr int many_products = 300;
-/// Coefficients of F for each dof from which on a step takes longer than that of the full-order model: some 17 ns each
-/// (110 vectors of 8 x 2 quadrilaterals, 4.8 million: 80 ms), and 17 us for each dof (2.7 ms), of beams less.
-constexpr Eigen::Index slower = 2000;
+/// Coefficients of F for each dof from which on a step is reported as longer than that of the full-order model: at
+/// twice as many as make them equal for 8 x 2 quadrilaterals (17 ns for each of 4.8 million coefficients, 80 ms; 17 us
+/// for each of 162 dofs, 2.7 ms).
+constexpr Eigen::Index coefficients_per_dof = 2000;
 
 /// Of the pieces of a body, of the one that has most.
 void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shared, const std::vector<ReducedBody>& all,
@@ -109,7 +109,7 @@ void warn_of_products(const Plan& plan, const std::vector<SharedReduction>& shar
   }
   for (const auto& [name, b] : most) {
     const auto dofs = plan.bodies[b].structure.dofs();
-    const std::string full = all[b].body.elasticity.F.size() > slower * dofs
+    const std::string full = all[b].body.elasticity.F.size() > coefficients_per_dof * dofs
                                  ? fmt::format(
                                        "; with {} basis vectors for {} dofs the full-order models (nlffr, cfr) "
                                        "can be faster, or take fewer derivatives (derivatives: 8)",

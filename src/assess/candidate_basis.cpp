@@ -81,7 +81,7 @@ const ReducedBody& CandidateBasis::Parts::reduced_body(std::size_t b, const std:
   auto basis = std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
       plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance));
   reduction::keep_without_mass(plan.structure, some, *basis);
-  project_onto(plan, std::move(basis), *source.statics, source.stage.modes_with_damping(), one);
+  project_onto(plan, std::move(basis), *source.statics, source.stage.modes_of_damping(), one);
   one.report.seconds_projection = MPI_Wtime() - start;
   one.statics = source.statics;
   join_start(plan, one);

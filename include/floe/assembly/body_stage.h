@@ -12,9 +12,10 @@ struct Stage {
   std::vector<reduction::Attachment> attachments;
   reduction::Generators generators;
   std::optional<reduction::Modes> damped;  ///< modes_for_damping()
-  const reduction::Modes& modes_with_damping() const { return damped ? *damped : generators.modes; }
   reduction::Pairs pairs;
   std::vector<char> left_out;  ///< of the generators; empty: none
+  /// Those that damping.modal refers to.
+  const reduction::Modes& modes_of_damping() const { return damped ? *damped : generators.modes; }
 };
 
 /// In place of a count of modes: the default, or fewer where the body has fewer under its conditions.

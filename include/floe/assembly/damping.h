@@ -15,6 +15,8 @@ namespace floe::assembly {
 /// hold to the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away
 /// from these. Collective.
 fem::Conditions constrained_for_damping(const Plan& plan, int body);
+/// Likewise of a body of several, `whole`, as one: joints among these do not count.
+fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
 /// What holds a body in the modes that damping.modal refers to, where these are not those of the reduction: the joints
 /// of constrained_for_damping(). Collective.
 std::optional<fem::Conditions> conditions_for_damping(const Plan& plan, int body);
@@ -22,14 +24,11 @@ std::optional<fem::Conditions> conditions_for_damping(const Plan& plan, int body
 std::optional<reduction::Modes> modes_for_damping(const Plan& plan, int body);
 /// All modes that damping.modal refers to, whether they are those of the reduction or not. Collective.
 reduction::Modes all_modes_for_damping(const Plan& plan, int body);
-/// A warning where damping.modal refers to modes that a joint to another body does not hold as it holds the body.
-/// Collective.
-std::string damping_with_free_joints(const Plan& plan, int body);
+/// Of each body whose modes for damping.modal do not satisfy its joints towards the ground, a warning. Collective.
+std::vector<std::string> damping_with_free_joints(const Plan& plan);
 /// A warning where the damping of a body from a file, modal or mass-proportional, is that of a body on no other body,
 /// and this one is joined to some.
 std::string damping_without_joints(const Plan& plan, int body, const ReducedBody& reduced);
-/// Likewise of a body of several, `whole`, as one: joints among these do not count.
-fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
 /// `constrained`, in order, without dofs of nodes that follow others, which have no motion of their own.
 fem::Conditions without_dependent(const fem::Structure& structure, const fem::Conditions& constrained);
 
