@@ -23,8 +23,9 @@ namespace {
 constexpr double impossible = std::numeric_limits<double>::infinity();
 constexpr double of_discretisation = 2. / 3;  // of the accuracy, for frames, elements and strains
 constexpr double most_seconds = 60;           // of one simulation in formulation cfr
-constexpr double least_left = 0.1;            // of the accuracy, that the error of the reference leaves to the models
-constexpr double no_measure = 0.1;            // error of a reference by which no model is selected
+constexpr double of_reference =
+    0.7;  // of the accuracy: a reference with a larger error leaves too little to the models
+constexpr double most_of_reference = 0.1;  // error of a reference by which models are selected
 constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
 constexpr double most_work = 1e5;  // elements of plates times steps, of a simulation at full order: about 10 s
 
@@ -47,8 +48,8 @@ class TotalSearch {
     if (!exact_.none.empty()) return without_exact();
     decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
            fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
-    if (exact_.error > 0.5 * asked_) {
-      if (exact_.error > no_measure) return by_no_reference();
+    if (!(exact_.error <= of_reference * asked_)) {
+      if (!(exact_.error <= most_of_reference)) return without_reference();
       accuracy_ = 2 * exact_.error;
       decisions_.back().reason +=
           fmt::format(", too large for the accuracy requested; models are selected for {}", math::percent(accuracy_));
@@ -64,7 +65,8 @@ class TotalSearch {
     const scene::Scene scene = discretised(scene_, chosen_);
     Chosen chosen = choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step});
     if (chosen.supported <= asked_ || !(error_of_own() < chosen.supported)) return finished(std::move(chosen));
-    decisions_.resize(1);  // the reference
+    for (std::size_t i = 1; i < decisions_.size(); ++i)  // after the reference
+      decisions_[i].choice = "not used: " + decisions_[i].choice;
     return own_model(fmt::format("the selected model ({}; {}) has {}", words(chosen_), summary_of(chosen),
                                  math::percent(chosen.supported)));
   }
@@ -335,12 +337,14 @@ class TotalSearch {
     return std::isfinite(error) ? error : impossible;
   }
 
-  Chosen by_no_reference() {
-    const std::string why = fmt::format(
-        "no model is selected by a reference whose error is above {}: take a smaller motion.step, or loads "
-        "and drives that begin smoothly",
-        math::percent(no_measure));
-    if (error_of_own() < impossible) return own_model(why);
+  /// Where the reference has too large an error: the scene's own model, or what can be selected without a reference.
+  Chosen without_reference() {
+    const std::string why = fmt::format("the estimated error of the reference, {}, is above {}",
+                                        math::percent(exact_.error), math::percent(most_of_reference));
+    if (error_of_own() < impossible)
+      return own_model(why +
+                       ": no model is selected; take a smaller motion.step, or loads and drives that begin "
+                       "smoothly");
     exact_.none = why;
     return without_exact();
   }
