@@ -37,8 +37,11 @@ class MeshError {
     part_.by = finer_ ? "elements half as long" : "elements twice as long";
     const ErrorPart empty = part_;
     const std::string fault = petsc::failed_together(motion_.comm, [&] { add(reduced()); });
-    if (!fault.empty()) part_ = empty, part_.none = fault;  // the other mesh has other basis vectors, for example
-    if (!is_reduced(motion_.model.formulation) || !(fault.empty() ? crowded() : small())) return;
+    if (!fault.empty()) {  // the other mesh has other basis vectors, for example
+      part_ = empty, part_.by.clear();
+      part_.none = first_line(fault);
+    }
+    if (!is_reduced(motion_.model.formulation) || !(fault.empty() ? crowded() : full_order_is_cheap())) return;
     if (!(time_.of_first(worst(part_)) > doubtful)) return;
     ErrorPart first = std::move(part_);
     part_ = empty;
@@ -99,7 +102,7 @@ class MeshError {
   }
 
   /// Whether full-order models take little time.
-  bool small() const {
+  bool full_order_is_cheap() const {
     constexpr PetscInt most = 3000;
     PetscInt dofs = 0;
     for (const BodyReport& report : motion_.model.bodies) dofs += report.dofs;
