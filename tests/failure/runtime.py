@@ -142,6 +142,8 @@ def cases(Case, run, case, nothing, kept):
              check=nothing),
         Case("sweep that never reaches its end", [*sweep, "--vary", "motion.step=1:2:-1"], 2, ("never reaches its end",), lines=1,
              check=nothing),
+        Case("sweep in steps of nothing", [*sweep, "--vary", "motion.step=1:2:0"], 2, ("never reaches its end",), lines=1,
+             check=nothing),
         Case("sweep of one path twice", [*sweep, "--vary", "motion.step=1e-3,2e-3", "--vary", "motion.step=1e-3"], 2,
              ("motion.step is varied twice",), lines=1, check=nothing),
         Case("sweep at full order", [*sweep, "--formulation", "nlffr", "--vary", "motion.step=1e-3,2e-3"], 2,

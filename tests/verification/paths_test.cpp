@@ -234,7 +234,7 @@ TEST_CASE("path: loads with a kink, or with an infinite rate at the start") {
 }
 
 // The origin of the frame stays where it is, and the load has the same limit at every half turn: attitudes distinguish
-// these limit points apart. M = sin(2 angle) + t has limits where cos(2 angle) vanishes.
+// these limit points. M = sin(2 angle) + t has limits where cos(2 angle) vanishes.
 TEST_CASE("path: limit points of a body that rotates about a place are different ones") {
   const app::RunResult result = path_of(R"yaml(
 bodies:

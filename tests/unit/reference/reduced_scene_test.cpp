@@ -121,6 +121,30 @@ TEST_CASE("a mechanism moves with a body from a file as with its mesh") {
   }
 }
 
+// On joints to the ground alone, which a file has, too.
+TEST_CASE("modal damping comes from a file as from the mesh, in every frame") {
+  for (const char* frame : {"pinned", "clamped", "mean-axis"}) {
+    INFO(frame);
+    const Pair scenes(R"yaml(
+gravity: [0, -9.81]
+bodies:
+  rod: $rod
+joints: {pin: {type: revolute, between: [ground, rod.start]}}
+motion: {end: 0.2, step: 2e-3}
+probes: {tip: {at: rod.end}}
+)yaml",
+                      "rod",
+                      fill(R"(
+    mesh: {polyline: {points: [[0, 0], [0.1, 0.1], [0.4, 0.1]], elements: [3, 9]}}
+    section: {EA: 1e5, EI: 1, rhoA: 0.4, rhoI: 1e-5}
+    damping: {modal: [0.01, 0.02]}
+    frame: {type: $frame}
+    reduction: {modes: 3})",
+                           {{"frame", frame}}));
+    check_same(move(scenes.from_file, Formulation::vm_md), move(scenes.meshed, Formulation::vm_md), 1e-10);
+  }
+}
+
 TEST_CASE("a plate that the ground holds moves from its file as with its mesh") {
   const Pair scenes(plate, "plate", meshed_plate);
   for (const Formulation formulation : {Formulation::vm_md, Formulation::vm})
