@@ -219,10 +219,10 @@ std::vector<std::pair<Eigen::Index, double>> drilling(const fem::Structure& stru
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
   MPI_Bcast(sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
-  std::vector<std::pair<Eigen::Index, double>> stiff;
+  std::vector<std::pair<Eigen::Index, double>> massless;
   for (Eigen::Index i = 0; i < k; ++i)
-    if (columns[i].kept && sums(i, 0) > limit * sums(i, 1)) stiff.emplace_back(i, sums(i, 0));
-  return stiff;
+    if (columns[i].kept && sums(i, 0) > limit * sums(i, 1)) massless.emplace_back(i, sums(i, 0));
+  return massless;
 }
 
 /// Drops columns of which little was new and that deform the body much less than any other one. Where the others span
@@ -243,16 +243,16 @@ void drop_rigid(const Eigen::VectorXd& energies, std::vector<Column>& columns, s
 /// Drops columns that are round-off, by their energies. Collective.
 void drop_round_off(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns,
                     std::vector<ColumnOrigin>& origins) {
-  const std::vector<std::pair<Eigen::Index, double>> stiff = drilling(structure, X, columns);
-  if (stiff.empty() &&
+  const std::vector<std::pair<Eigen::Index, double>> massless = drilling(structure, X, columns);
+  if (massless.empty() &&
       std::none_of(columns.begin(), columns.end(), [](const Column& column) { return column.suspect(); }))
     return;
   Eigen::VectorXd energies = fem::ElementStiffness(structure).gram(X).diagonal();
   MPI_Bcast(energies.data(), static_cast<int>(energies.size()), MPI_DOUBLE, 0, structure.mesh.comm);  // to the last bit
-  for (const auto& [i, of_shells] : stiff) {  // where the shells have less than half of it, others are as stiff
+  for (const auto& [i, of_shells] : massless) {  // where the shells have less than half of it, others are as stiff
     if (of_shells < 0.5 * energies[i]) continue;
     columns[i] = {.share = 0, .kept = false};
-    origins[static_cast<std::size_t>(i)].dropped = "it has no mass but round-off";
+    origins[static_cast<std::size_t>(i)].dropped = "massless but for round-off (drilling rotations)";
   }
   drop_rigid(energies, columns, origins);
 }

@@ -116,7 +116,7 @@ void refuse_not_finite(Vec U, Vec V) {
 }
 
 /// Whether the motion ends at t: there, or by an event.
-bool ends(const MotionContext& context, double t) {
+bool ends_motion(const MotionContext& context, double t) {
   if (t >= context.end * (1 - 1e-12)) return true;
   for (std::size_t i = 0; i < context.events.size(); ++i) {
     const Event& event = context.events[i];
@@ -137,7 +137,8 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
     check(TSGeneralizedAlphaGetEventError(ts, &event_error));
     refuse_not_finite(U, V);
-    c.observe({t, step, U, V, A, ends(c, t), c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
+    c.observe({t, step, U, V, A, ends_motion(c, t),
+               c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
                c.between && A ? &c.between : nullptr, false, event_error});
   });
 }
