@@ -1,5 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <functional>
 
 namespace floe::testing {
 
@@ -11,31 +12,12 @@ auto derivative(const Function& f, double t, double h) {
 }
 
 /// Column j is df/dx_j, five-point.
-template <class Function>
-Eigen::MatrixXd jacobian(const Function& f, const Eigen::VectorXd& x, double h) {
-  Eigen::MatrixXd J(f(x).size(), x.size());
-  for (Eigen::Index j = 0; j < x.size(); ++j)
-    J.col(j) = derivative(
-        [&](double shift) {
-          Eigen::VectorXd moved = x;
-          moved[j] += shift;
-          return Eigen::VectorXd(f(moved));
-        },
-        0, h);
-  return J;
-}
-
+Eigen::MatrixXd jacobian(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f, const Eigen::VectorXd& x,
+                         double h);
 /// df/dx of a scalar function, five-point.
-template <class Function>
-Eigen::VectorXd gradient(const Function& f, const Eigen::VectorXd& x, double h) {
-  return jacobian([&](const Eigen::VectorXd& y) { return Eigen::VectorXd::Constant(1, f(y)); }, x, h).transpose();
-}
+Eigen::VectorXd gradient(const std::function<double(const Eigen::VectorXd&)>& f, const Eigen::VectorXd& x, double h);
 
 /// Greatest difference against the greatest entry of `expected`.
-template <class A, class B>
-double relative_error(const A& found, const B& expected) {
-  const double scale = expected.cwiseAbs().maxCoeff();
-  return (found - expected).cwiseAbs().maxCoeff() / (scale > 0 ? scale : 1);
-}
+double relative_error(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected);
 
 }  // namespace floe::testing
