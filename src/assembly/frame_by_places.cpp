@@ -1,6 +1,5 @@
 #include "floe/assembly/frame_by_places.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "floe/math/rotation.h"
@@ -65,21 +64,13 @@ Axes mean_axes(const FrameByPlaces& frame, const Eigen::VectorXd& q) {
 
 /// Axes whose `axis` is along `direction`, by the least rotation from those given.
 Matrix3d swung(const Matrix3d& from, const Vector3d& axis, const Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(from * axis, direction).toRotationMatrix() * from;
+  return math::rotation_between(from * axis, direction).toRotationMatrix() * from;
 }
 
 struct SpatialAxes {
   Vector3d origin;
   Matrix3d axes;
 };
-
-/// The rotation nearest to a sum of rotated second moments: R of its polar decomposition.
-Matrix3d nearest_rotation(const Matrix3d& sum) {
-  const Eigen::JacobiSVD<Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Matrix3d& U = svd.matrixU();
-  const Matrix3d& V = svd.matrixV();
-  return U * Vector3d(1, 1, U.determinant() * V.determinant()).asDiagonal() * V.transpose();
-}
 
 SpatialAxes mean_axes(const SpatialFrameByPlaces& frame, const Eigen::VectorXd& q) {
   constexpr double about_the_line = 1e-9;  // of the moments: parts on one line by their own rotations
@@ -98,7 +89,7 @@ SpatialAxes mean_axes(const SpatialFrameByPlaces& frame, const Eigen::VectorXd& 
     sum += frame.masses[i] * (at[i] - r) * (frame.undeformed[i] - X).transpose() + D[i] * frame.moments[i];
     turned += frame.masses[i] / mass * D[i];
   }
-  return {r, nearest_rotation(sum + about_the_line * sum.norm() * turned)};
+  return {r, math::nearest_rotation(sum + about_the_line * sum.norm() * turned)};
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ void take_deformation(const std::vector<Vector3d>& X, const Eigen::Matrix3d& axe
     centre += X[static_cast<std::size_t>(i)] / static_cast<double>(n),
         at += q.segment<3>(6 * i) / static_cast<double>(n);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d mean = svd.matrixU() * svd.matrixV().transpose();
+  const Eigen::Matrix3d mean = math::nearest_rotation(sum);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d own = mean.transpose() * rotations[static_cast<std::size_t>(i)];
     const Vector3d u = mean.transpose() * (q.segment<3>(6 * i) - at) - (X[static_cast<std::size_t>(i)] - centre);

@@ -1,5 +1,6 @@
 #include "floe/math/rotation.h"
 
+#include <Eigen/SVD>
 #include <cmath>
 
 namespace floe::math {
@@ -52,6 +53,31 @@ Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
   const double half = std::atan2(sine, sign * rotation.w());
   const double factor = sine < 1e-6 ? 2 : 2 * half / sine;
   return sign * factor * rotation.vec();
+}
+
+Eigen::Quaterniond rotation_between(const Vector3d& a, const Vector3d& b) {
+  const Vector3d from = a.normalized(), to = b.normalized();
+  Eigen::Quaterniond q;
+  if (from.dot(to) > -0.5) {
+    const Vector3d middle = (from + to).normalized();
+    q.w() = from.dot(middle), q.vec() = from.cross(middle);
+  } else {  // across both; near opposite ones it has round-off along `from`
+    const Vector3d across = from.cross(to);
+    const double length = across.norm();
+    Vector3d axis = length > 0 ? Vector3d(across / length) : from.unitOrthogonal();
+    axis -= from * from.dot(axis);
+    if (axis.norm() < 0.5) axis = from.unitOrthogonal();
+    const double half = 0.5 * std::atan2(length, from.dot(to));
+    q.w() = std::cos(half), q.vec() = std::sin(half) * axis.normalized();
+  }
+  q.normalize();
+  return q;
+}
+
+Matrix3d nearest_rotation(const Matrix3d& A) {
+  const Eigen::JacobiSVD<Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
+  return U * Vector3d(1, 1, U.determinant() * V.determinant()).asDiagonal() * V.transpose();
 }
 
 Matrix3d rotation_tangent(const Vector3d& x) {

@@ -48,7 +48,7 @@ Matrix3d axes_along(Matrix3d axes, int kept, const std::vector<Vector3d>& direct
       complete(3 - kept - k);
       return axes;
     }
-    axes = Eigen::Quaterniond::FromTwoVectors(axes.col(k), along).toRotationMatrix() * axes;
+    axes = math::rotation_between(axes.col(k), along).toRotationMatrix() * axes;
     axes.col(k) = along;
     axes.col((k + 2) % 3) = along.cross(axes.col((k + 1) % 3)).normalized();
     complete((k + 1) % 3);

@@ -158,7 +158,7 @@ struct Pose {
 /// How the section of a beam is rotated in the frame.
 Matrix3d section(const Corner& c, const Pose& pose, const Matrix3d& undeformed) {
   const Vector3d t = c.deformed.directions.col(0).normalized();
-  return pose.axes.transpose() * Eigen::Quaterniond::FromTwoVectors(c.cell.col(0), t).toRotationMatrix() * undeformed;
+  return pose.axes.transpose() * math::rotation_between(c.cell.col(0), t).toRotationMatrix() * undeformed;
 }
 
 petsc::VecHandle displacement(const Shape& shape, const Pose& pose) {

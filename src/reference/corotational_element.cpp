@@ -86,7 +86,7 @@ Eigen::Quaterniond CorotationalElement::guess() const {
   const Eigen::Quaterniond one(places_[0].D), two(places_[1].D);
   const Eigen::Quaterniond middle =
       one * math::quaternion(0.5 * math::rotation_vector((one.conjugate() * two).normalized()));
-  return Eigen::Quaterniond::FromTwoVectors(middle * Vector3d(X_.col(1) - X_.col(0)), first) * middle;
+  return math::rotation_between(middle * Vector3d(X_.col(1) - X_.col(0)), first) * middle;
 }
 
 /// d, W and R at Q. @return  whether all is finite

@@ -20,6 +20,11 @@ Eigen::Quaterniond quaternion(const Eigen::Vector3d& x);
 /// x with exp(~x) = the rotation of a unit quaternion, |x| <= pi; to round-off at any angle.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation);
 
+/// The least rotation from the direction of a to that of b; of opposite ones, about some axis across.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+/// R of the polar decomposition A = R S, det R = 1: of a sum of rotations their mean (in the chordal metric).
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& A);
+
 /// T(x): exp(x)' d exp(x) = ~(T(x) dx), the spin in rotated axes that belongs to a change of x; T(-x) = T(x)'.
 ///
 ///   T = I - (1 - cos p)/p^2 ~x + (p - sin p)/p^3 ~x ~x,   p = |x|

@@ -31,7 +31,26 @@ TEST_CASE("beyond half a turn the logarithm is the shorter way") {
   CHECK((x - (4.0 - 2 * M_PI) * axis).norm() < 1e-15);
 }
 
-TEST_CASE("T(x) is the spin in turned axes of a change of x, and its derivative is exact") {
+TEST_CASE("the rotation between two directions maps one to the other, to round-off, also opposite ones") {
+  const Vector3d a(0.3, -0.5, 0.8), across = a.unitOrthogonal();
+  for (const double angle :
+       {0.0, 1e-12, 1e-6, 0.1, 1.5, 3.0, M_PI - 1e-3, M_PI - 1e-5, M_PI - 1e-9, M_PI - 1e-13, M_PI}) {
+    INFO(angle);
+    const Vector3d b = 3 * (std::cos(angle) * a.normalized() + std::sin(angle) * across);
+    const Eigen::Quaterniond q = math::rotation_between(a, b);
+    CHECK((q.toRotationMatrix() * a.normalized() - b.normalized()).norm() < 1e-15);
+    CHECK(math::rotation_vector(q).norm() == Approx(angle).margin(1e-15));
+  }
+}
+
+TEST_CASE("the nearest rotation of a stretched one is that rotation, and proper for a reflection") {
+  const Matrix3d R = math::rotation(2.5 * axis);
+  const Matrix3d S = (Matrix3d() << 2, 0.3, 0.1, 0.3, 1, -0.2, 0.1, -0.2, 0.5).finished();
+  CHECK((math::nearest_rotation(R * S) - R).norm() < 1e-14);
+  CHECK(math::nearest_rotation(-R * S).determinant() == Approx(1));
+}
+
+TEST_CASE("T(x) is the spin in rotated axes of a change of x, and its derivative is exact") {
   for (const double angle : {1e-9, 1e-3, 0.0999, 0.1001, 0.5, 2.0, 6.0}) {
     const Vector3d x = angle * axis, w(1, 2, -0.5);
     const double h = 1e-5;
