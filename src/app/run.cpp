@@ -129,6 +129,8 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   Recorder recorder(scene, model, comm, folder, result, plan);
   solve::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   how.newton_tolerance = plan.newton_tolerance;
+  how.state_loads =
+      std::any_of(scene.loads.begin(), scene.loads.end(), [](const scene::Load& load) { return load.has_sensors(); });
   how.events = assembly::events_of(scene, model, end);
   how.kinks = assembly::kinks_of(scene, end);
   how.on_event = [&](const dynamics::EventReport& event) {

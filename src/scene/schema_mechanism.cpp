@@ -188,7 +188,8 @@ const SchemaSection motion_section{
          Type::number,
          "",
          "",
-         "relative error per step for adaptive steps; absent: constant steps",
+         "error per step for adaptive steps, relative to the greatest distance of all bodies together from the start "
+         "(mass-weighted); absent: constant steps",
          {0, 1, true, true}},
         choice("start", "given",
                "given: from the initial states of the bodies; equilibrium: from the static equilibrium under the loads "

@@ -149,10 +149,33 @@ std::optional<double> Crossings::change_of_side(const Step& step, std::size_t i,
   return before > 0 ? between(step.begin, there, before, low) : step.begin;
 }
 
+/// Of an event whose function has one sign at both ends of the step: where it has the other one between. It is seen in
+/// the middle, in adaptive steps at all quarters, and at the vertex of the parabola through the least value and its
+/// neighbours.
+std::optional<double> Crossings::visit(const Step& step, std::size_t i, const Seen& now) const {
+  const int parts = step_ > 0 ? 2 : 4;
+  const double h = step.end - step.begin, sign = before_.value[i] < 0 ? -1 : 1;
+  const auto at = [&](double s) { return step.begin + s * h; };
+  const auto value = [&](double s) { return sign * within(step, i, at(s)); };
+  std::vector<double> seen{sign * before_.value[i]};
+  for (int k = 1; k < parts; ++k) seen.push_back(value(static_cast<double>(k) / parts));
+  seen.push_back(sign * now.value[i]);
+  const auto least = std::min_element(seen.begin(), seen.end());
+  const auto k = least - seen.begin();
+  if (k == 0 || k == parts) return {};
+  double s = static_cast<double>(k) / parts, low = *least;
+  if (low > 0) {
+    const double left = seen[k - 1], right = seen[k + 1];
+    s += (left - right) / (2 * (left - 2 * low + right) * parts), low = value(s);
+  }
+  if (!(low < 0)) return {};
+  return locate(step, i, step.begin, at(s), before_.value[i], sign * low);
+}
+
 std::optional<double> Crossings::crossing(const Step& step, std::size_t i, const Seen& now) const {
   if (events_[i].repeats()) return change_of_side(step, i, now);
-  if (!events_[i].crosses || happened_[i] != 0) return {};
-  if (before_.value[i] == 0 || now.value[i] * before_.value[i] > 0) return {};
+  if (!events_[i].crosses || happened_[i] != 0 || before_.value[i] == 0) return {};
+  if (now.value[i] * before_.value[i] > 0) return visit(step, i, now);
   if (now.value[i] == 0) return step.end;
   return locate(step, i, step.begin, step.end, before_.value[i], now.value[i]);
 }

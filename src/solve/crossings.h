@@ -13,7 +13,7 @@ using namespace dynamics;
 ///
 /// Events that repeat are reported here, and the motion goes on: nothing changes at them. Such an event is on one side
 /// of its zero, +1 or -1, and happens where it comes to the other. A step may also begin and end on one side and visit
-/// the other between: by its rates at both ends that is seen, too.
+/// the other between: that is seen by rates at both ends, or where there are none by values within the step.
 class Crossings {
  public:
   /// @param happened  of each event whether it has; of one that repeats its side, 0: not known
@@ -47,6 +47,7 @@ class Crossings {
   Seen see(double t, Vec U, Vec V) const;
   double within(const Step& step, std::size_t event, double t) const;
   double locate(const Step& step, std::size_t event, double low, double high, double before, double after) const;
+  std::optional<double> visit(const Step& step, std::size_t event, const Seen& now) const;
   std::optional<double> crossing(const Step& step, std::size_t event, const Seen& now) const;
   std::optional<double> change_of_side(const Step& step, std::size_t event, const Seen& now) const;
   void after_step_again(const Step& step);

@@ -33,7 +33,9 @@ constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,
                                   &Data::tangent_A, &Data::work_U,
                                   &Data::work_V,    &Data::work_A,
                                   &Data::work_F,    &Data::column,
-                                  &Data::A_before,  &Data::rotation_rows};
+                                  &Data::A_before,  &Data::rotation_rows,
+                                  &Data::middle_U,  &Data::middle_V,
+                                  &Data::middle_A};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -160,6 +162,12 @@ PetscErrorCode set_forces_jump(TS ts) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode set_state_loads(TS ts) {
+  PetscFunctionBegin;
+  generalized_alpha_data(ts)->state_loads = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
   PetscReal rho = generalized_alpha_data(ts)->rho;
   PetscBool set;
@@ -192,6 +200,7 @@ constexpr const char* set_radius_name = "TSGeneralizedAlphaSetRadius_C";
 constexpr const char* set_start_name = "TSGeneralizedAlphaSetStart_C";
 constexpr const char* set_rotations_name = "TSGeneralizedAlphaSetRotations_C";
 constexpr const char* set_forces_jump_name = "TSGeneralizedAlphaSetForcesJump_C";
+constexpr const char* set_state_loads_name = "TSGeneralizedAlphaSetStateLoads_C";
 constexpr const char* interpolate_name = "TSGeneralizedAlphaInterpolate_C";
 constexpr const char* get_acceleration_name = "TSGeneralizedAlphaGetAcceleration_C";
 constexpr const char* get_event_error_name = "TSGeneralizedAlphaGetEventError_C";
@@ -204,8 +213,9 @@ PetscErrorCode destroy(TS ts) {
   if (ts->snes) PetscCall(SNESSetConvergenceTest(ts->snes, SNESConvergedDefault, nullptr, nullptr));
   delete generalized_alpha_data(ts);
   ts->data = nullptr;
-  for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, set_forces_jump_name,
-                           set_rotations_name, get_acceleration_name, get_event_error_name, interpolate_name})
+  for (const char* name :
+       {set_multipliers_name, set_radius_name, set_start_name, set_forces_jump_name, set_rotations_name,
+        set_state_loads_name, get_acceleration_name, get_event_error_name, interpolate_name})
     PetscCall(PetscObjectComposeFunction((PetscObject)ts, name, nullptr));
   PetscFunctionReturn(0);
 }
@@ -257,6 +267,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_radius_name, set_radius));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_forces_jump_name, set_forces_jump));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_state_loads_name, set_state_loads));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_event_error_name, get_event_error));
@@ -292,6 +303,12 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 PetscErrorCode TSGeneralizedAlphaSetForcesJump(TS ts) {
   PetscFunctionBegin;
   PetscTryMethod(ts, "TSGeneralizedAlphaSetForcesJump_C", (TS), (ts));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TSGeneralizedAlphaSetStateLoads(TS ts) {
+  PetscFunctionBegin;
+  PetscTryMethod(ts, "TSGeneralizedAlphaSetStateLoads_C", (TS), (ts));
   PetscFunctionReturn(0);
 }
 

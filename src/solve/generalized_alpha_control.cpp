@@ -169,6 +169,59 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
   PetscFunctionReturn(0);
 }
 
+// The residuals in the middle of the step's interpolant, scaled rows; constraints into middle_U alone, the others into
+// middle_V.
+PetscErrorCode residuals_of_middle(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(state_within(ts, data->h, 0.5, data->middle_U, data->middle_V, data->middle_A));
+  PetscCall(
+      TSComputeI2Function(ts, ts->ptime + data->h / 2, data->middle_U, data->middle_V, data->middle_A, data->work_F));
+  const Entries scale(data->scale), dynamic(data->dynamic), rows(data->work_F);
+  Changed constraints(data->middle_U), others(data->middle_V);
+  for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i) {
+    constraints[i] = (1 - dynamic[i]) * scale[i] * rows[i];
+    others[i] = dynamic[i] * scale[i] * rows[i];
+  }
+  PetscFunctionReturn(0);
+}
+
+// e = J^-1 (0, c): what the constraints would change q by in the middle. Of motions that drives prescribe q is exact at
+// both ends whatever the step.
+PetscErrorCode estimate_error_of_constraints(TS ts, KSPConvergedReason* reason) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(residuals_of_middle(ts));
+  PetscCall(solve_scaled(ts, data->middle_U, data->work_U));
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscFunctionReturn(0);
+}
+
+// e = J^-1 shift_a M J^-1 (f, 0): what the forces would change q by in the middle, without what is stiff or strongly
+// damped. After estimate_error_of_constraints. Loads of sensors may begin and end within a step.
+PetscErrorCode estimate_error_of_loads(TS ts, KSPConvergedReason* reason) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(solve_scaled(ts, data->middle_V, data->work_U));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  if (*reason < 0) PetscFunctionReturn(0);
+  PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
+  PetscCall(VecWAXPY(data->work_A, data->shift_a, data->work_U, data->A1));
+  PetscCall(TSComputeI2Function(ts, ts->ptime + data->h, data->U1, data->V1, data->work_A, data->work_F));
+  PetscCall(VecPointwiseMult(data->work_F, data->work_F, data->scale));
+  PetscCall(VecPointwiseMult(data->work_F, data->work_F, data->dynamic));
+  PetscCall(solve_scaled(ts, data->work_F, data->work_U));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscFunctionReturn(0);
+}
+
 // The distance that a step from rest without a force is judged by: of the longest attempt that resolves the load, for
 // with one that grows as t^p distances fall with the power 2 + p of the step from each attempt to the next: at the
 // start of the motion twice in a row, since a load that alternates does so once by chance. One that begins more steeply
@@ -190,38 +243,56 @@ void note_start(TS ts) {
 
 }  // namespace
 
-// Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
-// sqrt(sum M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as
-// about an equilibrium, moves by round-off. -1 (not known) while nothing has moved. In the first step from rest without
-// a force the distance is of the size of the error whatever the step: that of a longer attempt counts (note_start). The
-// power of h in the estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+// Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm sqrt(sum
+// M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as about an
+// equilibrium, moves by round-off. -1 (not known) while nothing has moved. In the first step from rest without a force
+// the distance is of the size of the error whatever the step: that of a longer attempt counts (note_start). The power
+// of h in the estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+//
+// It is that at the end or, if larger, that of the constraints in the middle. A step is also refused for that of the
+// loads in the middle where the others, ten times smaller, do not see it; it does not decide on the size of the next
+// one, since vibrations that steps hardly resolve have errors of the same size there and should not make steps vary.
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  constexpr PetscReal least = 1e-9;
-  double sums[3] = {0, 0, 0};
+  constexpr PetscReal least = 1e-9, hidden = 10;
+  enum { of_end, of_constraints, of_loads, distance, size, count };
+  double sums[count] = {};
   KSPConvergedReason reason;
 
   PetscFunctionBegin;
-  PetscCall(estimate_error(ts, &reason));
+  const auto add = [&](PetscErrorCode (*estimate)(TS, KSPConvergedReason*), double* sum) {
+    PetscFunctionBegin;
+    PetscCall(estimate(ts, &reason));
+    const Entries e(data->work_U), mass(data->mass), dynamic(data->dynamic);
+    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) *sum += dynamic[i] * mass[i] * PetscSqr(e[i]);
+    PetscFunctionReturn(0);
+  };
+  PetscCall(add(estimate_error, &sums[of_end]));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(add(estimate_error_of_constraints, &sums[of_constraints]));
+  if (data->state_loads) PetscCall(add(estimate_error_of_loads, &sums[of_loads]));
   {
-    const Entries e(data->work_U), U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
+    const Entries U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
     for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
-      sums[0] += dynamic[i] * mass[i] * PetscSqr(e[i]);
-      sums[1] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
-      sums[2] += dynamic[i] * mass[i] * PetscSqr(U1[i]);
+      sums[distance] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
+      sums[size] += dynamic[i] * mass[i] * PetscSqr(U1[i]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
-  data->reach_tried = PetscSqrtReal(sums[1]);
-  const PetscReal round_off = least * PetscSqrtReal(sums[2]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, count, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
+  for (const int middle : {of_constraints, of_loads})
+    if (PetscIsNanReal(sums[middle])) sums[middle] = PETSC_INFINITY;  // the equations cannot be evaluated there
+  data->reach_tried = PetscSqrtReal(sums[distance]);
+  const PetscReal round_off = least * PetscSqrtReal(sums[size]);
   const bool rests = data->from_rest && !(data->reach_tried > round_off);  // the load begins later
   if (data->from_rest && !rests) note_start(ts);
   const PetscReal moved = PetscMax(data->reach, data->reach_tried);
   const PetscReal expected = data->from_rest || ts->ptime < data->start_until ? data->start_reach : 0;
   const PetscReal reach = PetscMax(PetscMax(moved, expected), round_off);
-  *error = reach > 0 ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
+  const PetscReal seen = PetscSqrtReal(PetscMax(sums[of_end], sums[of_constraints])),
+                  of_sensors = PetscSqrtReal(sums[of_loads]);
+  const bool refused = of_sensors > hidden * seen && of_sensors > ts->rtol * reach;
+  *error = reach > 0 ? (refused ? of_sensors : seen) / (ts->rtol * reach) : -1;
   if (rests)
     *error = -1;
   else if (data->from_rest && ts->steps == 0 && data->start_falls < 2)

@@ -40,6 +40,7 @@ struct GeneralizedAlpha {
   Vec A_before = nullptr;
   PetscReal t_event = 0;
   PetscBool forces_jump = PETSC_FALSE;  // at the event that follows, and velocities do not
+  PetscBool state_loads = PETSC_FALSE;  // TSGeneralizedAlphaSetStateLoads
   PetscReal event_error = 0;            // TSGeneralizedAlphaGetEventError
 
   // Constants of the step under way: a_n as used, and what the rates are affine in.
@@ -73,6 +74,7 @@ struct GeneralizedAlpha {
   Vec tangent_U = nullptr, tangent_V = nullptr, tangent_A = nullptr;
   PetscReal tangent_t = 0, tangent_shift_v = 0, tangent_shift_a = 0;
 
+  Vec middle_U = nullptr, middle_V = nullptr, middle_A = nullptr;  // of the step: local_error
   Vec work_U = nullptr, work_V = nullptr, work_A = nullptr, work_F = nullptr;
 };
 
@@ -203,6 +205,8 @@ PetscErrorCode predict(TS ts, Guess guess);
 // generalized_alpha_step.cpp
 PetscErrorCode step(TS ts);
 PetscErrorCode roll_back(TS ts);
+/// Of the step from U0 to U1, which is h long, at x h, 0 <= x <= 1; uses work_U and work_V.
+PetscErrorCode state_within(TS ts, PetscReal h, PetscReal x, Vec U, Vec V, Vec A);
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);
 PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V, Vec A);
 PetscErrorCode form_function(SNES snes, Vec U, Vec F, TS ts);

@@ -303,19 +303,14 @@ PetscErrorCode roll_back(TS ts) {
 }
 
 // Cubic Hermite for q (error O(h^4) of the scheme's own path), linear for the multipliers. work_V: dU/dt at the end.
-PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
+static PetscErrorCode place_within(TS ts, PetscReal h, PetscReal x, Vec U_vec) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  if (ts->ptime == ts->ptime_prev) {
-    PetscCall(VecCopy(ts->vec_sol, U_vec));
-    PetscFunctionReturn(0);
-  }
   PetscCall(VecCopy(data->V1, data->work_V));
   PetscCall(add_bracket(ts, 0.5, data->U1, data->V1, data->work_U, data->work_V));
   const Entries U0(data->U0), V0(data->V0), U1(data->U1), V1(data->work_V), dynamic(data->dynamic);
   Changed U(U_vec);
-  const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h;
   for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
     const PetscReal to_end = dynamic[i] != 0 ? x * x * (3 - 2 * x) : x;
     U[i] = U0[i] + to_end * (U1[i] - U0[i]) + h * x * (1 - x) * ((1 - x) * V0[i] - x * V1[i]);
@@ -325,23 +320,40 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
 
 // Rates: quadratic between V0 and V1, their second derivative by the change of the auxiliary accelerations. A itself
 // alternates from step to step where motions are damped much faster than a step; its mean, a, hardly does.
-PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V_vec, Vec A_vec) {
+PetscErrorCode state_within(TS ts, PetscReal h, PetscReal x, Vec U, Vec V_vec, Vec A_vec) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  PetscCall(interpolate(ts, t, U));
-  if (ts->ptime == ts->ptime_prev) {
-    PetscCall(VecCopy(ts->vec_dot, V_vec));
-    PetscCall(VecCopy(data->A1, A_vec));
-    PetscFunctionReturn(0);
-  }
+  PetscCall(place_within(ts, h, x, U));
   const Entries V0(data->V0), V1(data->V1), A0(data->A0), A1(data->A1), dynamic(data->dynamic);
   const Entries a0(data->a_used), a1(data->a1);
   Changed V(V_vec), A(A_vec);
-  const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h;
   for (PetscInt i = 0, n = local_size(V_vec); i < n; ++i) {
     V[i] = dynamic[i] * (V0[i] + x * (V1[i] - V0[i]) - h * x * (1 - x) * (a1[i] - a0[i]) / 2);
     A[i] = A0[i] + x * (A1[i] - A0[i]);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
+  PetscFunctionBegin;
+  const PetscReal h = ts->ptime - ts->ptime_prev;
+  if (h == 0)
+    PetscCall(VecCopy(ts->vec_sol, U));
+  else
+    PetscCall(place_within(ts, h, (t - ts->ptime_prev) / h, U));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V, Vec A) {
+  PetscFunctionBegin;
+  const PetscReal h = ts->ptime - ts->ptime_prev;
+  if (h == 0) {
+    PetscCall(VecCopy(ts->vec_sol, U));
+    PetscCall(VecCopy(ts->vec_dot, V));
+    PetscCall(VecCopy(generalized_alpha_data(ts)->A1, A));
+  } else {
+    PetscCall(state_within(ts, h, (t - ts->ptime_prev) / h, U, V, A));
   }
   PetscFunctionReturn(0);
 }

@@ -244,6 +244,7 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
   const TSGeneralizedAlphaRotations rotations{attitudes ? rebase_rotations : nullptr, attitudes ? bracket : nullptr,
                                               &context, rotate_rates, angles};
   check(TSGeneralizedAlphaSetRotations(ts, &rotations));
+  if (how.state_loads) check(TSGeneralizedAlphaSetStateLoads(ts));
   check(TSSetApplicationContext(ts, &context));
   check(TSSetFunctionDomainError(ts, check_step));
   check(TSSetTimeStep(ts, how.step));

@@ -78,6 +78,8 @@ inline History move(const std::string& text, Formulation formulation) {
   solve::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
   how.events = assembly::events_of(scene, history.model, motion.end);
   how.kinks = assembly::kinks_of(scene, motion.end);
+  how.state_loads =
+      std::any_of(scene.loads.begin(), scene.loads.end(), [](const scene::Load& load) { return load.has_sensors(); });
   how.on_event = [&](const dynamics::EventReport& event) { history.events.push_back(event); };
   history.report = solve::simulate(*history.model.system, how, history.model.U, history.model.V,
                                    [&](const solve::Instant& at) { store(history, at.t, at.U, at.V, at.A); });

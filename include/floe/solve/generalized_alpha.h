@@ -38,6 +38,10 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 /// A is left out of it, each motion for itself, as at the start of a motion.
 PetscErrorCode TSGeneralizedAlphaSetForcesJump(TS ts);
 
+/// Forces depend on the state and may begin and end within a step: an adaptive step is refused where they do so unseen
+/// at its ends.
+PetscErrorCode TSGeneralizedAlphaSetStateLoads(TS ts);
+
 /// Rotations among the unknowns, A = base exp(x), whose rates are angular velocities in rotated axes (not dx/dt).
 /// Source: Bruels, Cardona, Arnold 2012, Lie group generalized-alpha time integration of constrained flexible multibody
 /// systems.

@@ -20,6 +20,7 @@ struct Integration {
   std::vector<Event> events = {};  ///< those that do not repeat happen once, in the order of their times
   std::function<void(const EventReport&)> on_event = {};  ///< called for each that happens
   std::vector<Kink> kinks = {};                           ///< ascending, none within another
+  bool state_loads = false;                               ///< loads depend on the motion (sensors)
   const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };
 
