@@ -49,7 +49,9 @@ RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::
   if (Interruption::happened(comm)) throw RunError("interrupted");
   if (!why.empty()) throw RunError(why);
   const double end = until.value_or(scene.motion.end);
-  if (std::abs(result.end - end) > 2 * scene.motion.step)
+  const bool may_stop = std::any_of(scene.events.begin(), scene.events.end(),
+                                    [](const scene::Event& event) { return event.kind == scene::Event::Kind::stop; });
+  if (!may_stop && std::abs(result.end - end) > 2 * scene.motion.step)
     throw RunError(fmt::format("the simulation ends at t = {:.4g} s", result.end));
   result.motion_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   MPI_Bcast(&result.motion_seconds, 1, MPI_DOUBLE, 0, comm);
@@ -102,7 +104,7 @@ class Refinement {
     for (int halving = 1; halving <= halvings_at_most; ++halving) {
       scene::Scene finer = scene_;
       if (mesh) assess::scale_meshes(finer, 1 << halving);
-      if (!mesh) finer.motion.step /= 1 << halving;
+      if (!mesh) shorten_steps(finer.motion, 1 << halving);
       const double growth = mesh && assess::any_shells(scene_) ? 5 : 2;
       if (growth * took > most_) {
         if (halving == 1)

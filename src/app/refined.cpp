@@ -4,12 +4,16 @@
 
 namespace floe::app {
 
+void shorten_steps(scene::Motion& motion, int n) {
+  motion.step /= n;
+  if (motion.tolerance) *motion.tolerance /= n * n * n;
+}
+
 scene::Scene refined(const scene::Scene& scene) {
   scene::Scene fine = scene;
   assess::scale_meshes(fine, 2);
-  fine.motion.step /= 2;
+  shorten_steps(fine.motion, 2);
   if (!fine.motion.output) fine.motion.every *= 2;
-  if (fine.motion.tolerance) *fine.motion.tolerance /= 4;
   return fine;
 }
 

@@ -20,18 +20,23 @@ constexpr double smallest_required = 0.002;  // of the models that are selected
 Scene finer(const Scene& scene) {
   Scene fine = refined(scene);
   fine.motion = scene.motion;
-  fine.motion.step /= 4;
+  shorten_steps(fine.motion, 4);
   if (!scene.motion.output) fine.motion.every *= 4;
-  if (scene.motion.tolerance) *fine.motion.tolerance /= 16;
   return fine;
 }
 
-TradeoffReference of_exact(const ExactMotion& exact) {
+/// Adaptive steps by their tolerance.
+std::string steps_in_words(const Scene& scene, int n) {
+  return scene.motion.tolerance ? fmt::format("1/{} of the tolerance", n * n * n)
+                                : fmt::format("steps 1/{} as long", n);
+}
+
+TradeoffReference of_exact(const Scene& scene, const ExactMotion& exact) {
   TradeoffReference reference;
   reference.formulation = Formulation::cfr;
   const int halvings = static_cast<int>(exact.of_mesh.size()) - 1;
-  reference.words = fmt::format("cfr, elements 1/{} as long, steps 1/{} as long, extrapolated", 1 << halvings,
-                                1 << exact.halved_steps);
+  reference.words = fmt::format("cfr, elements 1/{} as long, {}, extrapolated", 1 << halvings,
+                                steps_in_words(scene, 1 << exact.halved_steps));
   reference.series = exact.series, reference.error = exact.error;
   return reference;
 }
@@ -42,8 +47,7 @@ TradeoffReference of_full_order(const Scene& scene, const Series& own, MPI_Comm 
   TradeoffReference reference;
   reference.formulation = Formulation::nlffr;
   const bool halved = std::any_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed);
-  reference.words = fmt::format("nlffr, {}steps 1/4 as long", halved ? "elements 1/2 as long, " : "");
-  if (scene.motion.tolerance) reference.words += ", a sixteenth of the tolerance";
+  reference.words = fmt::format("nlffr, {}{}", halved ? "elements 1/2 as long, " : "", steps_in_words(scene, 4));
   reference.series = run(finer(scene), Formulation::nlffr, comm, std::nullopt).series;
   reference.error = worst_error(own, reference.series) / (halved ? 3 : 15);
   reference.error_lacks = "the error of strains and floating frames";
@@ -56,7 +60,7 @@ TradeoffReference tradeoff_reference(const Scene& scene, const TradeoffRequest& 
                                      MPI_Comm comm) {
   if (request.reference == Formulation::nlffr) return of_full_order(scene, own, comm);
   const ExactMotion exact = exact_motion(scene, smallest_required, request.most_seconds, comm);
-  if (exact.none.empty()) return of_exact(exact);
+  if (exact.none.empty()) return of_exact(scene, exact);
   if (request.reference == Formulation::cfr)
     throw InputError(fmt::format("{}: --reference cfr: {}; expected --reference nlffr, or a longer --time-budget",
                                  scene.file, exact.none));

@@ -175,7 +175,45 @@ TEST_CASE("trade-off: the reference is cfr where that is possible, else the full
   scene::Scene adaptive = scene;
   adaptive.motion.tolerance = 1e-4;
   request.reference = Formulation::nlffr;
-  CHECK_THAT(of(adaptive, request).words, Contains("a sixteenth of the tolerance"));
+  CHECK_THAT(of(adaptive, request).words, Contains("1/64 of the tolerance"));
+}
+
+// Of adaptive steps the tolerance has to fall with them: the error stated was a hundredth of the true one.
+TEST_CASE("trade-off: the error of a reference in adaptive steps is the true one") {
+  scene::Scene scene = cantilever("4", "mean-axis", "end: 0.5, step: 0.01, output: 0.01");
+  const Series own = moved(scene, Formulation::nlffr).series;
+  scene::Scene fine = scene;
+  fine.bodies[0].mesh.elements = {24}, fine.motion.step /= 32;
+  const Series exact = moved(fine, Formulation::cfr).series;
+  scene.motion.tolerance = 1e-3;
+  const TradeoffReference reference = tradeoff_reference(scene, {}, own, PETSC_COMM_WORLD);
+  REQUIRE(reference.formulation == Formulation::cfr);
+  CHECK_THAT(reference.words, Contains("of the tolerance"));
+  const double error = worst_error(reference.series, exact);
+  CAPTURE(error, reference.error, reference.words);
+  CHECK(error < std::max(3 * reference.error, 1e-3));
+}
+
+TEST_CASE("trade-off: of a scene that an event ends, the reference is cfr, too") {
+  const scene::Scene scene = scene::parse_scene(R"yaml(
+gravity: [0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {EA: 1e5, EI: 5, rhoA: 0.5, rhoI: 1e-4}
+    reduction: {modes: 3}
+joints: {h: {type: revolute, between: [ground, rod.start]}}
+motion: {end: 2, step: 4e-3}
+events: {e: {stop: true, probe: tip.y, crosses: -0.9}}
+probes: {tip: {at: rod.end, quantity: displacement}}
+)yaml",
+                                                "scene");
+  const Series own = moved(scene, Formulation::nlffr).series;
+  const TradeoffReference reference = tradeoff_reference(scene, {}, own, PETSC_COMM_WORLD);
+  CHECK(reference.why.empty());
+  CHECK(reference.formulation == Formulation::cfr);
+  CHECK(reference.series.t.back() < 0.5);
+  CHECK(worst_error(own, reference.series) < 0.01);
 }
 
 TEST_CASE("trade-off: without probes there is nothing to compare, and no folder is left") {
