@@ -1,6 +1,6 @@
 #include "equilibrium.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +82,13 @@ std::string start_of_table(const assembly::Model& model, const LoadSteps& load, 
   return "";
 }
 
+std::string without_events(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::Event& event : scene.events) names.push_back(event.name);
+  return fmt::format("equilibria do not take account of events ({}): joints are as at the start",
+                     fmt::join(names, ", "));
+}
+
 }  // namespace
 
 RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
@@ -100,6 +107,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
+  if (!scene.events.empty()) result.warnings.push_back(without_events(scene));
   result.series.columns = assembly::probe_columns(model);
   Recorder recorder(scene, model, comm, folder, result);
   assess::KeptMotion kept(model, 100);

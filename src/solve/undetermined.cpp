@@ -69,10 +69,17 @@ Eigen::Index true_null_vectors(const Eigen::MatrixXd& J, const Eigen::MatrixXd& 
 }
 
 /// Orthonormal l with C'l = 0 among all unknowns: constraints that repeat one another. A null vector (q, l) of the
-/// whole J = [K C'; C 0] need not be of this kind where l is not zero: K q = -C'l, as in a pendulum that is level.
+/// whole J = [K C'; C 0] need not be of this kind where l is not zero: K q = -C'l, as in a pendulum that is level. A
+/// lock that is open has the equation l = 0 instead, and is none.
 Eigen::MatrixXd repeated_rows(const Eigen::MatrixXd& J, const std::vector<char>& multiplier) {
   std::vector<Eigen::Index> rows, columns;
-  for (std::size_t i = 0; i < multiplier.size(); ++i) (multiplier[i] ? rows : columns).push_back(i);
+  for (std::size_t i = 0; i < multiplier.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (!multiplier[i])
+      columns.push_back(row);
+    else if (J(row, row) == 0)
+      rows.push_back(row);
+  }
   if (rows.empty()) return Eigen::MatrixXd(J.rows(), 0);
   const Eigen::MatrixXd Ct = J(rows, columns).transpose();
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(Ct, Eigen::ComputeFullV);

@@ -296,3 +296,21 @@ joints:
           }) == (unstable ? 1 : 0));
   }
 }
+
+// The lock is open: it does not count as a constraint that repeats another one where the level rod's tangent is
+// singular.
+TEST_CASE("equilibria leave out events, which is reported") {
+  const app::RunResult result = at_rest(R"yaml(
+gravity: [0, -9.81]
+bodies: {rod: {rigid: {mass: 1, centre: [0.5, 0], inertia: 0.1}}}
+joints: {h: {type: revolute, between: [ground, {body: rod, node: [0, 0]}]}}
+events: {catch: {lock: h, at: 0.5}}
+probes: {a: {joint: h, quantity: angle}}
+motion: {end: 1, step: 0.1}
+)yaml",
+                                        Formulation::vm_md, 2);
+  CHECK(result.series.values.back()[0] == Approx(-M_PI / 2).epsilon(1e-6));
+  CHECK(std::count_if(result.warnings.begin(), result.warnings.end(), [](const std::string& words) {
+          return words.find("equilibria do not take account of events (catch)") != std::string::npos;
+        }) == 1);
+}
