@@ -43,6 +43,8 @@ class Recorder {
   double seconds() const { return seconds_; }
 
  private:
+  bool balances_every_step() const;
+  std::string clamped_frames() const;
   void open_files();
   void continue_files(const output::Checkpoint& from);
   std::int64_t expected_rows() const;

@@ -31,15 +31,36 @@ void Recorder::refuse_runaway() const {
       balance_.growth(), balance_.work(), solve::EnergyBalance::most_growth));
 }
 
+/// Whether the power of loads is integrated over equal steps, all of them: neither jumps within long steps nor what
+/// happens between stored instants is missed.
+bool Recorder::balances_every_step() const {
+  const scene::Motion& motion = scene_.motion;
+  if (motion.tolerance) return false;
+  return motion.output ? *motion.output <= (1 + 1e-9) * motion.step : motion.every == 1;
+}
+
+/// A frame that is clamped at a free end follows its fastest vibrations, which a smaller step excites the more.
+std::string Recorder::clamped_frames() const {
+  std::vector<std::string> names;
+  for (const scene::Body& body : scene_.bodies)
+    if (scene_.dimension == 3 && model_.formulation == scene::Formulation::nlffr && body.frame.given &&
+        body.frame.kind == scene::FrameSpec::Kind::clamped)
+      names.push_back(body.name);
+  if (names.empty()) return "";
+  return fmt::format(", and of bodies whose frame is clamped where no joint holds them ({}) frame: mean-axis",
+                     fmt::join(names, ", "));
+}
+
 std::string Recorder::growth_warning() const {
   constexpr double limit = 0.1;
+  if (!balances_every_step()) return "";
   const double scale = std::max(balance_.turnover(), max_energy_), growth = balance_.growth();
   if (!(growth > limit * scale)) return "";
   return fmt::format(
       "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the maximum energy "
-      "(limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and remove options "
+      "(limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step{}, and remove options "
       "-motion_snes_... that stop Newton's method early",
-      growth, balance_.work(), 100 * growth / scale, 100 * limit);
+      growth, balance_.work(), 100 * growth / scale, 100 * limit, clamped_frames());
 }
 
 std::string Recorder::event_warning() const {

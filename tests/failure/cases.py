@@ -352,6 +352,8 @@ FAULTS = [
     *case("energy that nothing brought", options=("-motion_snes_rtol", "1e300"), lines=0,
           shows=("Note: total energy: grows by", "(limit 10 %)", "take a smaller motion.step"),
           changes={**RELEASED, "motion.end": 0.002}, check=files("finished", 3)),
+    *case("a pulse between stored instants", lines=0, never=("total energy",), check=files("finished", 6),
+          changes={"loads.tip.force": [0, "50*pulse(t, 0.021, 0.025)"], "motion.output": 0.01}),
     *case("a bent beam with dampers is let go", formulations=("nlffr",), lines=0, never=("total energy",),
           shows=("Note: event off (unlock joint clamp) at t = 1.7 s: the step after it has an estimated error of 7",
                  "take a smaller motion.step"),
