@@ -71,12 +71,15 @@ const typename Map::mapped_type* NasBuild::property(const Map& all, long long id
   return nullptr;
 }
 
-/// Whether a direction of the material matters.
+/// Whether a direction of the material matters, or of the one that it bends by.
 bool NasBuild::has_axes(const NasShellProperty& property) const {
-  return std::any_of(property.plies.begin(), property.plies.end(), [&](const NasPly& ply) {
-    const auto found = model_.materials.find(ply.material);
+  const auto directed = [&](long long material) {
+    const auto found = model_.materials.find(material);
     return found != model_.materials.end() && found->second.material.elasticity != Elasticity::isotropic;
-  });
+  };
+  return (property.bending && directed(*property.bending)) ||
+         std::any_of(property.plies.begin(), property.plies.end(),
+                     [&](const NasPly& ply) { return directed(ply.material); });
 }
 
 /// Direction of angle 0 of a shell's material.

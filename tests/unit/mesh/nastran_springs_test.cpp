@@ -116,6 +116,11 @@ TEST_CASE("a PSHELL may bend by another material, or by other fibres") {
   REQUIRE(file.deck.shell_sections[0].bending);
   CHECK(file.deck.shell_sections[0].bending->material == "MAT1_2");
   CHECK(file.deck.shell_sections[0].bending->factor == 1.5);
+  CHECK(file.deck.shell_sections[0].orientation.empty());
+  const auto fibres = read("fibres.bdf", grids + "CQUAD4,1,3,1,2,3,4\nPSHELL,3,1,.01,8\n" + steel +
+                                             "MAT8,8,1.4+11,9.+9,.3,5.+9,5.+9,5.+9\n");
+  REQUIRE(fibres.deck.shell_sections.size() == 1);
+  CHECK(!fibres.deck.shell_sections[0].orientation.empty());
 }
 
 TEST_CASE("links leave rotations of shells and beams free, in displacement axes") {
