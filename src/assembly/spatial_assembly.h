@@ -79,9 +79,9 @@ class SpatialAssembly {
   void find_constrained_nodes();
   std::vector<PlacedJoint> place_constrained_nodes(int joint);
   void add_corotated(int body);
-  std::vector<std::unique_ptr<dynamics::Term>> corotated_pressure(const Load& load, int body,
-                                                                  const std::function<double(double)>& value,
-                                                                  const fem::Mesh::Cell& cell) const;
+  std::unique_ptr<dynamics::Term> corotated_pressure(const Load& load, int body,
+                                                     const std::function<double(double)>& value,
+                                                     const fem::Mesh::Cell& cell) const;
 
   void add_frame(int body);
   void add_coordinates();

@@ -9,7 +9,7 @@
 #include "floe/fem/shell.h"
 #include "floe/math/rotation.h"
 #include "floe/plan/prepare_spatial_joints.h"
-#include "floe/reference/facet_pressure.h"
+#include "floe/reference/surface_pressure.h"
 #include "floe/scene/joint_events.h"
 #include "spatial_assembly.h"
 
@@ -212,30 +212,15 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
   return parts;
 }
 
-std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::corotated_pressure(
-    const Load& load, int b, const std::function<double(double)>& value, const fem::Mesh::Cell& cell) const {
-  std::vector<std::unique_ptr<dynamics::Term>> terms;
+std::unique_ptr<dynamics::Term> SpatialAssembly::corotated_pressure(const Load& load, int b,
+                                                                    const std::function<double(double)>& value,
+                                                                    const fem::Mesh::Cell& cell) const {
   const PlannedBody& body = plan_.bodies[b];
-  const std::vector<SpatialMarker> places = slots_[b].corotated->places(cell);
-  const auto X = [&](int corner) { return body.structure.mesh.positions[cell.place[corner]]; };
-  const auto add = [&](const std::array<int, 3>& at, double share) {
-    const Vector3d area = 0.5 * (body.attitude * (X(at[1]) - X(at[0])).cross(X(at[2]) - X(at[0])));
-    terms.push_back(std::make_unique<reference::FacetPressure>(
-        std::vector<SpatialMarker>{places[at[0]], places[at[1]], places[at[2]]}, value, share,
-        load.follower ? nullptr : &area));
-  };
-  if (cell.kind == fem::CellKind::triangle) {
-    add({0, 1, 2}, 1);
-  } else if (mesh::is_quadratic(cell.kind)) {  // facets between the nodes
-    const int n = static_cast<int>(cell.corners().size());
-    for (int i = 0; i < n; ++i) add({i, n + i, n + (i + n - 1) % n}, 1);
-    if (n == 3) add({3, 4, 5}, 1);
-    if (n == 4)
-      for (const auto& sides : fem::quadrilateral_triangles) add({n + sides[0], n + sides[1], n + sides[2]}, 0.5);
-  } else {
-    for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
-  }
-  return terms;
+  std::vector<Vector3d> undeformed;  // world axes
+  if (!load.follower)
+    for (const int place : cell.places()) undeformed.emplace_back(body.attitude * body.structure.mesh.positions[place]);
+  return std::make_unique<reference::SurfacePressure>(slots_[b].corotated->places(cell), fem::surface_shapes(cell.kind),
+                                                      value, undeformed);
 }
 
 }  // namespace floe::assembly

@@ -96,7 +96,7 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::pressure_terms(con
   for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
     if (!chosen(cell)) continue;
     if (slots_[b].corotated) {
-      std::ranges::move(corotated_pressure(load, b, value, cell), std::back_inserter(terms));
+      terms.push_back(corotated_pressure(load, b, value, cell));
       continue;
     }
     const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slots_[b].nodes);

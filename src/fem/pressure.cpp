@@ -2,6 +2,7 @@
 
 #include "cells.h"
 #include "floe/fem/quadratic_shell.h"
+#include "quadratic_shape.h"
 
 namespace floe::fem {
 namespace {
@@ -21,6 +22,26 @@ Eigen::MatrixXd tilt(const std::array<Vector3d, 4>& x, const std::array<int, 3>&
 }
 
 }  // namespace
+
+std::vector<SurfaceShape> surface_shapes(mesh::CellKind kind) {
+  std::vector<SurfaceShape> points;
+  if (mesh::is_quadratic(kind)) {
+    const quadratic::Shape& shape = quadratic::shape_of(kind == CellKind::triangle6 ? 6 : 8);
+    for (const auto& [point, weight] : shape.masses)
+      points.push_back({weight, shape.values(point), shape.gradients(point)});
+    return points;
+  }
+  const auto add = [&](const std::array<int, 3>& corner, int corners, double weight) {
+    SurfaceShape one{weight, Eigen::VectorXd::Zero(corners), Eigen::Matrix2Xd::Zero(2, corners)};
+    for (const int i : corner) one.N[i] = 1. / 3;
+    one.dN.col(corner[0]).setConstant(-1), one.dN(0, corner[1]) = 1, one.dN(1, corner[2]) = 1;
+    points.push_back(one);
+  };
+  if (kind == CellKind::triangle) add({0, 1, 2}, 3, 0.5);
+  if (kind == CellKind::quadrilateral)
+    for (const auto& corners : quadrilateral_triangles) add(corners, 4, 0.25);
+  return points;
+}
 
 bool is_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind); }
 

@@ -1,4 +1,4 @@
-#include "floe/reference/facet_pressure.h"
+#include "floe/reference/surface_pressure.h"
 
 #include "floe/math/rotation.h"
 
@@ -9,35 +9,58 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using math::skew;
 
-FacetPressure::FacetPressure(std::vector<dynamics::SpatialMarker> places, std::function<double(double)> value,
-                             double share, const Vector3d* dead)
-    : value_(std::move(value)), share_(share), follower_(dead == nullptr), places_(std::move(places)) {
-  if (dead) dead_ = *dead;
+SurfacePressure::SurfacePressure(std::vector<dynamics::SpatialMarker> places, std::vector<fem::SurfaceShape> points,
+                                 std::function<double(double)> value, const std::vector<Vector3d>& dead)
+    : points_(std::move(points)),
+      value_(std::move(value)),
+      places_(std::move(places)),
+      wrenches_(Eigen::VectorXd::Zero(6 * places_.size())),
+      Y_(Eigen::MatrixXd::Zero(6 * places_.size(), 6 * places_.size())) {
+  if (dead.empty()) return;
+  for (const fem::SurfaceShape& point : points_) {
+    Vector3d r = Vector3d::Zero(), s = Vector3d::Zero();
+    for (Index i = 0; i < places_.size(); ++i)
+      r += point.dN(0, i) * dead[static_cast<std::size_t>(i)], s += point.dN(1, i) * dead[static_cast<std::size_t>(i)];
+    dead_.emplace_back(point.weight * r.cross(s));
+  }
+}
+
+/// x_r or x_s
+Vector3d SurfacePressure::along(Index direction, const fem::SurfaceShape& point) const {
+  Vector3d sum = Vector3d::Zero();
+  for (Index i = 0; i < places_.size(); ++i) sum += point.dN(direction, i) * places_[i].p;
+  return sum;
 }
 
 /// Minus the forces: what stands in the residual.
-void FacetPressure::push(const dynamics::Motion& motion) const {
-  const Vector3d one = places_[1].p - places_[0].p, two = places_[2].p - places_[0].p;
-  const Vector3d area = follower_ ? Vector3d(0.5 * one.cross(two)) : dead_;
-  for (Index i = 0; i < 3; ++i) wrenches_.segment<3>(6 * i) = -share_ * value_(motion.t) / 3 * area;
+void SurfacePressure::push(const dynamics::Motion& motion) const {
+  const double value = value_(motion.t);
+  wrenches_.setZero();
+  for (std::size_t g = 0; g < points_.size(); ++g) {
+    const fem::SurfaceShape& point = points_[g];
+    const Vector3d area = dead_.empty() ? Vector3d(point.weight * along(0, point).cross(along(1, point))) : dead_[g];
+    for (Index i = 0; i < places_.size(); ++i) wrenches_.segment<3>(6 * i) -= value * point.N[i] * area;
+  }
 }
 
-void FacetPressure::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
+void SurfacePressure::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
   places_.see(motion, EvaluationLevel::position);
   push(motion);
   places_.add(wrenches_, r);
 }
 
-void FacetPressure::tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const {
+void SurfacePressure::tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const {
   places_.see(motion, EvaluationLevel::jacobian);
   push(motion);
-  if (follower_) {
-    const Vector3d one = places_[1].p - places_[0].p, two = places_[2].p - places_[0].p;
-    const double factor = -share_ * value_(motion.t) / 6;
-    for (Index i = 0; i < 3; ++i) {
-      Y_.block<3, 3>(6 * i, 6) = -factor * skew(two);
-      Y_.block<3, 3>(6 * i, 12) = factor * skew(one);
-      Y_.block<3, 3>(6 * i, 0) = factor * (skew(two) - skew(one));
+  if (dead_.empty()) {
+    const double value = value_(motion.t);
+    Y_.setZero();
+    for (const fem::SurfaceShape& point : points_) {
+      const Eigen::Matrix3d by_r = skew(along(1, point)), by_s = skew(along(0, point));
+      for (Index j = 0; j < places_.size(); ++j) {  // d (x_r x x_s) by x_j
+        const Eigen::Matrix3d change = value * point.weight * (point.dN(1, j) * by_s - point.dN(0, j) * by_r);
+        for (Index i = 0; i < places_.size(); ++i) Y_.block<3, 3>(6 * i, 6 * j) -= point.N[i] * change;
+      }
     }
   }
   places_.add_tangent(wrenches_, Y_, nullptr, weights, J);

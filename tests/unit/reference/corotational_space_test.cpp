@@ -2,7 +2,7 @@
 
 #include "floe/error.h"
 #include "floe/math/rotation.h"
-#include "floe/reference/facet_pressure.h"
+#include "floe/reference/surface_pressure.h"
 #include "floe/solve/branch.h"
 #include "scene_motion.h"
 #include "spatial_terms.h"
@@ -24,9 +24,9 @@ History follow(const std::string& text, int steps) {
   return history;
 }
 
-std::vector<dynamics::SpatialMarker> corners(Random& random) {
+std::vector<dynamics::SpatialMarker> places(Random& random, int count) {
   std::vector<dynamics::SpatialMarker> all;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < count; ++i) {
     all.push_back(floe::testing::spatial_marker(random, 6 * i, floe::testing::attitude(random), 0));
     all.back().coordinates.resize(6);
   }
@@ -112,15 +112,20 @@ TEST_CASE("corotational in space: deflections are from the clamped or pinned fra
   CHECK(maximum > 0.01);
 }
 
-TEST_CASE("pressure on a facet: the tangent is the difference of the residual; follower and dead",
+TEST_CASE("pressure on a surface: the tangent is the difference of the residual; follower and dead",
           "[corotational-space]") {
   Random random(931);
-  const Eigen::Vector3d dead = random.vector(3);
-  for (const Eigen::Vector3d* area : {static_cast<const Eigen::Vector3d*>(nullptr), &dead}) {
-    const reference::FacetPressure pressure(
-        corners(random), [](double t) { return 2 + t; }, 0.5, area);
-    CHECK(floe::testing::tangent_error(pressure, State(random, 18)) < 1e-8);
-  }
+  for (const auto& [kind, count] : {std::pair{mesh::CellKind::triangle, 3},
+                                    {mesh::CellKind::quadrilateral, 4},
+                                    {mesh::CellKind::triangle6, 6},
+                                    {mesh::CellKind::quadrilateral8, 8}})
+    for (const bool follower : {true, false}) {
+      std::vector<Eigen::Vector3d> undeformed;
+      for (int i = 0; i < count && !follower; ++i) undeformed.emplace_back(random.vector(3));
+      const reference::SurfacePressure pressure(
+          places(random, count), fem::surface_shapes(kind), [](double t) { return 2 + t; }, undeformed);
+      CHECK(floe::testing::tangent_error(pressure, State(random, 6 * count)) < 1e-8);
+    }
 }
 
 TEST_CASE("cfr in space: an end moment rolls beams and shells to circles on any number of ranks",
