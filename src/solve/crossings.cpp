@@ -150,26 +150,35 @@ std::optional<double> Crossings::change_of_side(const Step& step, std::size_t i,
 }
 
 /// Of an event whose function has one sign at both ends of the step: where it has the other one between. It is seen in
-/// the middle, in adaptive steps at all quarters, and at the vertex of the parabola through the least value and its
-/// neighbours.
+/// the middle, in adaptive steps at all quarters, and at the vertex of the parabola through the least of these values
+/// and its neighbours, which moves to there until it stays.
 std::optional<double> Crossings::visit(const Step& step, std::size_t i, const Seen& now) const {
+  struct Sample {
+    double s, value;
+  };
+  constexpr double likely = 0.25;  // of the least value: what a parabola may miss
   const int parts = step_ > 0 ? 2 : 4;
   const double h = step.end - step.begin, sign = before_.value[i] < 0 ? -1 : 1;
-  const auto at = [&](double s) { return step.begin + s * h; };
-  const auto value = [&](double s) { return sign * within(step, i, at(s)); };
-  std::vector<double> seen{sign * before_.value[i]};
-  for (int k = 1; k < parts; ++k) seen.push_back(value(static_cast<double>(k) / parts));
-  seen.push_back(sign * now.value[i]);
-  const auto least = std::min_element(seen.begin(), seen.end());
-  const auto k = least - seen.begin();
-  if (k == 0 || k == parts) return {};
-  double s = static_cast<double>(k) / parts, low = *least;
-  if (low > 0) {
-    const double left = seen[k - 1], right = seen[k + 1];
-    s += (left - right) / (2 * (left - 2 * low + right) * parts), low = value(s);
+  const auto at = [&](double s) { return Sample{s, sign * within(step, i, step.begin + s * h)}; };
+  std::vector<Sample> all{{0, sign * before_.value[i]}};
+  for (int k = 1; k < parts; ++k) all.push_back(at(static_cast<double>(k) / parts));
+  all.push_back({1, sign * now.value[i]});
+  for (int vertices = 0;; ++vertices) {
+    const auto least = std::ranges::min_element(all, {}, &Sample::value);
+    if (least->value < 0)
+      return locate(step, i, step.begin, step.begin + least->s * h, before_.value[i], sign * least->value);
+    const auto k = std::clamp<std::ptrdiff_t>(least - all.begin(), 1, std::ssize(all) - 2);
+    const Sample &left = all[k - 1], &middle = all[k], &right = all[k + 1];
+    const double rise = (right.value - middle.value) / (right.s - middle.s),
+                 fall = (middle.value - left.value) / (middle.s - left.s),
+                 curvature = (rise - fall) / (right.s - left.s);
+    if (!(curvature > 0) || vertices == 4) return {};
+    const double slope = fall + curvature * (middle.s - left.s), way = -slope / (2 * curvature), s = middle.s + way;
+    if (!(s > 0 && s < 1) || middle.value + 0.5 * slope * way > likely * least->value) return {};
+    const auto after = std::ranges::upper_bound(all, s, {}, &Sample::s);
+    if (s - std::prev(after)->s < 1e-3 || after->s - s < 1e-3) return {};
+    all.insert(after, at(s));
   }
-  if (!(low < 0)) return {};
-  return locate(step, i, step.begin, at(s), before_.value[i], sign * low);
 }
 
 std::optional<double> Crossings::crossing(const Step& step, std::size_t i, const Seen& now) const {

@@ -5,7 +5,7 @@
 using namespace floe;
 using namespace floe::test;
 
-// Adaptive steps see what happens between their ends. The estimated error of q at the end of a step is nothing where
+// Adaptive steps see what happens between their ends. The estimated error of q at the end of a step is zero where
 // drives prescribe q, and where neither end is in the range in which a load acts.
 
 namespace {
@@ -117,10 +117,11 @@ loads: {f: {type: force, at: m.centre, force: [0, "$force"]}}
 
 // y = 5 t - g t^2 / 2 crosses 0.6, 1 and 1.2 m on its way up: once more on its way down, within one step of 2 s.
 TEST_CASE("events that a step crosses forth and back happen, in adaptive steps and in fixed ones") {
-  for (const double level : {0.6, 1.0, 1.2, 1.27})
+  for (const double level : {0.6, 1.0, 1.2, 1.27, 1.2703})
     for (const std::string& steps :
          {std::string("step: 1e-2, tolerance: 1e-3"), std::string("step: 1e-2, tolerance: 1e-8"),
-          std::string("step: 0.3"), std::string("step: 0.05")}) {
+          std::string("step: 0.3"), std::string("step: 0.27"), std::string("step: 0.54, tolerance: 1e-3"),
+          std::string("step: 0.05")}) {
       INFO(level << " " << steps);
       const History at = move(fill(R"yaml(
 gravity: [0, -9.81]
@@ -134,4 +135,22 @@ events: {e: {stop: true, probe: m.y, crosses: $level}}
       REQUIRE(at.events.size() == 1);
       CHECK(at.events[0].t == Approx((5 - std::sqrt(25 - 2 * 9.81 * level)) / 9.81).epsilon(1e-6));
     }
+}
+
+// 0.1 sin(10 t) is above 0.0999 for 9 ms.
+TEST_CASE("events near the maxima of an oscillation happen in fixed steps") {
+  for (const char* step : {"0.05", "0.03", "0.0371"}) {
+    INFO(step);
+    const History at = move(fill(R"yaml(
+bodies: {s: {rigid: {mass: 1.5, centre: [0, 0, 0], inertia: [0.1, 0.1, 0.1]}}}
+joints: {p: {type: driven_slide, between: [ground, s.centre], axis: [1, 0, 0], position: "0.1*sin(10*t)"}}
+motion: {end: 1, step: $step}
+probes: {x: {joint: p, quantity: travel}}
+events: {e: {stop: true, probe: x.value, crosses: 0.0999}}
+)yaml",
+                                 {{"step", step}}),
+                            Formulation::vm_md);
+    REQUIRE(at.events.size() == 1);
+    CHECK(at.events[0].t == Approx(std::asin(0.999) / 10).epsilon(0.01));
+  }
 }
