@@ -24,6 +24,7 @@ void simulate_reduced(const Plan& plan, Model& model, KeptMotion& motion) {
   solve::Integration with{how.end, how.step, how.spectral_radius, how.tolerance, "ranking_"};
   with.events = events_of(plan.scene, model, how.end);
   with.kinks = kinks_of(plan.scene, how.end);
+  with.state_loads = std::ranges::any_of(plan.scene.loads, [](const Load& load) { return load.has_sensors(); });
   try {
     solve::simulate(*model.system, with, model.U, model.V,
                     [&](const solve::Instant& instant) { motion.keep(instant); });

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "generalized_alpha_data.h"
 
 namespace floe::solve {
@@ -169,15 +171,15 @@ PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
   PetscFunctionReturn(0);
 }
 
-// The residuals in the middle of the step's interpolant, scaled rows; constraints into middle_U alone, the others into
+// The residuals within the step's interpolant, at x h, scaled rows; constraints into middle_U alone, the others into
 // middle_V.
-PetscErrorCode residuals_of_middle(TS ts) {
+PetscErrorCode residuals_within(TS ts, PetscReal x) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  PetscCall(state_within(ts, data->h, 0.5, data->middle_U, data->middle_V, data->middle_A));
+  PetscCall(state_within(ts, data->h, x, data->middle_U, data->middle_V, data->middle_A));
   PetscCall(
-      TSComputeI2Function(ts, ts->ptime + data->h / 2, data->middle_U, data->middle_V, data->middle_A, data->work_F));
+      TSComputeI2Function(ts, ts->ptime + x * data->h, data->middle_U, data->middle_V, data->middle_A, data->work_F));
   const Entries scale(data->scale), dynamic(data->dynamic), rows(data->work_F);
   Changed constraints(data->middle_U), others(data->middle_V);
   for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i) {
@@ -194,20 +196,21 @@ PetscErrorCode estimate_error_of_constraints(TS ts, KSPConvergedReason* reason) 
   KSP ksp;
 
   PetscFunctionBegin;
-  PetscCall(residuals_of_middle(ts));
+  PetscCall(residuals_within(ts, 0.5));
   PetscCall(solve_scaled(ts, data->middle_U, data->work_U));
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(KSPGetConvergedReason(ksp, reason));
   PetscFunctionReturn(0);
 }
 
-// e = J^-1 shift_a M J^-1 (f, 0): what the forces would change q by in the middle, without what is stiff or strongly
-// damped. After estimate_error_of_constraints. Loads of sensors may begin and end within a step.
-PetscErrorCode estimate_error_of_loads(TS ts, KSPConvergedReason* reason) {
+// e = J^-1 shift_a M J^-1 (f, 0): what the forces would change q by within the step, at x h, without what is stiff or
+// strongly damped. Loads of sensors may begin and end there.
+PetscErrorCode estimate_error_of_loads(TS ts, PetscReal x, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
 
   PetscFunctionBegin;
+  PetscCall(residuals_within(ts, x));
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(solve_scaled(ts, data->middle_V, data->work_U));
   PetscCall(KSPGetConvergedReason(ksp, reason));
@@ -249,29 +252,33 @@ void note_start(TS ts) {
 // the distance is of the size of the error whatever the step: that of a longer attempt counts (note_start). The power
 // of h in the estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
 //
-// It is that at the end or, if larger, that of the constraints in the middle. A step is also refused for that of the
-// loads in the middle where the others, ten times smaller, do not see it; it does not decide on the size of the next
-// one, since vibrations that steps hardly resolve have errors of the same size there and should not make steps vary.
+// It is that at the end or, if larger, that of the constraints in the middle. A step is also refused for that of loads
+// of sensors at its quarters where this is above the tolerance and ten times the others, which do not see it then; it
+// does not decide on the size of the next step: of vibrations that steps hardly resolve it is as large as the others,
+// and would make steps vary.
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscReal least = 1e-9, hidden = 10;
-  enum { of_end, of_constraints, of_loads, distance, size, count };
+  enum { of_end, of_constraints, of_loads, distance = of_loads + 3, size, count };
   double sums[count] = {};
   KSPConvergedReason reason;
 
   PetscFunctionBegin;
-  const auto add = [&](PetscErrorCode (*estimate)(TS, KSPConvergedReason*), double* sum) {
-    PetscFunctionBegin;
-    PetscCall(estimate(ts, &reason));
+  const auto add = [&](double& sum) {
     const Entries e(data->work_U), mass(data->mass), dynamic(data->dynamic);
-    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) *sum += dynamic[i] * mass[i] * PetscSqr(e[i]);
-    PetscFunctionReturn(0);
+    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) sum += dynamic[i] * mass[i] * PetscSqr(e[i]);
+    if (reason < 0) sum = PETSC_INFINITY;
   };
-  PetscCall(add(estimate_error, &sums[of_end]));
+  PetscCall(estimate_error(ts, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
-  PetscCall(add(estimate_error_of_constraints, &sums[of_constraints]));
-  if (data->state_loads) PetscCall(add(estimate_error_of_loads, &sums[of_loads]));
+  add(sums[of_end]);
+  PetscCall(estimate_error_of_constraints(ts, &reason));
+  add(sums[of_constraints]);
+  for (int quarter = 1; data->state_loads && quarter <= 3; ++quarter) {
+    PetscCall(estimate_error_of_loads(ts, 0.25 * quarter, &reason));
+    add(sums[of_loads + quarter - 1]);
+  }
   {
     const Entries U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
     for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
@@ -280,8 +287,8 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, count, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
-  for (const int middle : {of_constraints, of_loads})
-    if (PetscIsNanReal(sums[middle])) sums[middle] = PETSC_INFINITY;  // the equations cannot be evaluated there
+  for (int within = of_constraints; within < distance; ++within)
+    if (PetscIsNanReal(sums[within])) sums[within] = PETSC_INFINITY;  // the equations cannot be evaluated there
   data->reach_tried = PetscSqrtReal(sums[distance]);
   const PetscReal round_off = least * PetscSqrtReal(sums[size]);
   const bool rests = data->from_rest && !(data->reach_tried > round_off);  // the load begins later
@@ -290,9 +297,9 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   const PetscReal expected = data->from_rest || ts->ptime < data->start_until ? data->start_reach : 0;
   const PetscReal reach = PetscMax(PetscMax(moved, expected), round_off);
   const PetscReal seen = PetscSqrtReal(PetscMax(sums[of_end], sums[of_constraints])),
-                  of_sensors = PetscSqrtReal(sums[of_loads]);
-  const bool refused = of_sensors > hidden * seen && of_sensors > ts->rtol * reach;
-  *error = reach > 0 ? (refused ? of_sensors : seen) / (ts->rtol * reach) : -1;
+                  unseen = PetscSqrtReal(*std::max_element(sums + of_loads, sums + distance));
+  const bool refused = unseen > hidden * seen && unseen > ts->rtol * reach;
+  *error = reach > 0 ? (refused ? unseen : seen) / (ts->rtol * reach) : -1;
   if (rests)
     *error = -1;
   else if (data->from_rest && ts->steps == 0 && data->start_falls < 2)
