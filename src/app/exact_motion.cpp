@@ -32,6 +32,13 @@ constexpr int halvings_at_most = 4, first_steps = 30;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+bool ended_by_event(const RunResult& result) {
+  const auto events = result.summary.find("events");
+  return events != result.summary.end() && std::any_of(events->begin(), events->end(), [](const auto& event) {
+           return event.value("what", "") == "stop";
+         });
+}
+
 /// RunResult::motion_seconds is processor time.
 RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm,
                 double accuracy, bool energies = true) {
@@ -49,9 +56,7 @@ RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::
   if (Interruption::happened(comm)) throw RunError("interrupted");
   if (!why.empty()) throw RunError(why);
   const double end = until.value_or(scene.motion.end);
-  const bool may_stop = std::any_of(scene.events.begin(), scene.events.end(),
-                                    [](const scene::Event& event) { return event.kind == scene::Event::Kind::stop; });
-  if (!may_stop && std::abs(result.end - end) > 2 * scene.motion.step)
+  if (!ended_by_event(result) && std::abs(result.end - end) > 2 * scene.motion.step)
     throw RunError(fmt::format("the simulation ends at t = {:.4g} s", result.end));
   result.motion_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   MPI_Bcast(&result.motion_seconds, 1, MPI_DOUBLE, 0, comm);
@@ -114,6 +119,9 @@ class Refinement {
       }
       const RunResult one = moved(finer, scene::Formulation::cfr, std::nullopt, comm_, accuracy_);
       took = one.motion_seconds;
+      if (std::abs(one.end - own.end) > 2 * scene_.motion.step + scene_.motion.output.value_or(0))
+        throw RunError(
+            fmt::format("an event ends the simulation at t = {:.4g} s, in a finer one at {:.4g} s", own.end, one.end));
       const double change = worst_error(all.back(), one.series);
       const bool ordered = before > 0 && change < 0.4 * before;
       limit = one.series;

@@ -27,6 +27,7 @@ Scene finer(const Scene& scene) {
 
 /// Adaptive steps by their tolerance.
 std::string steps_in_words(const Scene& scene, int n) {
+  if (n == 1) return scene.motion.tolerance ? "the scene's tolerance" : "the scene's steps";
   return scene.motion.tolerance ? fmt::format("1/{} of the tolerance", n * n * n)
                                 : fmt::format("steps 1/{} as long", n);
 }
