@@ -194,7 +194,8 @@ double size_of(const VectorXd& change, const MassScale& mass) {
 /// singular (a hinge without stiffness at rest). Positions and directions of constraints are of the size of one [m, 1].
 bool in_equilibrium(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& u) {
   const std::vector<char> multiplier = multiplier_flags(rotating.system);
-  const VectorXd forces = at.K.cwiseAbs() * u.cwiseAbs(), constraints = at.G.cwiseAbs() * u.cwiseAbs().cwiseMax(1);
+  const VectorXd forces = (at.K.cwiseAbs() + at.G.cwiseAbs()) * u.cwiseAbs(),
+                 constraints = at.G.cwiseAbs() * u.cwiseAbs().cwiseMax(1);
   for (Index i = 0; i < at.F.size(); ++i)
     if (!(std::abs(at.F[i]) <= 1e-14 * (multiplier[static_cast<std::size_t>(i)] ? constraints[i] : forces[i])))
       return false;
