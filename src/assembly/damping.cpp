@@ -147,8 +147,7 @@ std::vector<std::string> damping_with_free_joints(const Plan& plan) {
   for (const auto& [name, joints] : free)
     all.push_back(
         fmt::format("body {}: the modes of damping.modal do not satisfy joint{} {} to another body, or only in part: "
-                    "its vibrations "
-                    "can have less damping than specified. damping.stiffness has no such limit",
+                    "its vibrations can have less damping than specified. damping.stiffness has no such limit",
                     name, joints.size() > 1 ? "s" : "", fmt::join(joints, ", ")));
   return all;
 }

@@ -278,8 +278,7 @@ const SchemaSection damping_section{
         {"modal", Type::numbers, "", "[]",
          "damping ratios of the first modes of the body under its joints towards the ground (where no joint leads to "
          "the ground, towards a rigid body), which floe modes lists (with an interface: fixed-interface modes; with "
-         "modes: "
-         "{of: frame}: those); with several frames those of the body as a whole, which it lists with frames: 1",
+         "modes: {of: frame}: those); with several frames those of the body as a whole, which it lists with frames: 1",
          nonnegative},
     }};
 
