@@ -379,7 +379,7 @@ probes: {tip: {at: b.end}}
   CHECK(ratio_of_decay(at.t, at["tip.y"], 0.5) == Approx(0.05).epsilon(0.02));
 }
 
-TEST_CASE("damping: modal, copies that are held alike share their reduction") {
+TEST_CASE("damping: modal, copies that are constrained alike share their reduction") {
   for (const std::string reduction : {"modes: 4", "modes: 4, interface: [start]"}) {
     CAPTURE(reduction);
     const auto model = assembly::build(scene::parse_scene(fill(R"yaml(
