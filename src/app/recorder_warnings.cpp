@@ -27,7 +27,7 @@ void Recorder::refuse_runaway() const {
   if (scene_.motion.every != 1 || scene_.motion.output || !balance_.runs_away(round_off)) return;
   throw RunError(fmt::format(
       "total energy has grown by {:.3g} J beyond the work of loads and drives ({:.3g} J; limit {:g} times the "
-      "energy exchanged before): the steps did not converge (unstable time integration). Try a smaller motion.step.{}",
+      "energy exchanged before): the steps did not converge (unstable time integration). Try {}a smaller motion.step",
       balance_.growth(), balance_.work(), solve::EnergyBalance::most_growth, clamped_frames()));
 }
 
@@ -47,8 +47,10 @@ std::string Recorder::clamped_frames() const {
         body.frame.kind == scene::FrameSpec::Kind::clamped)
       names.push_back(body.name);
   if (names.empty()) return "";
-  return fmt::format(" Where no joint holds the clamped place of {}, take frame: mean-axis; smaller steps do not help",
-                     fmt::join(names, ", "));
+  return fmt::format(
+      "frame: mean-axis where no joint constrains the clamped place of {} (smaller steps do not help there), "
+      "otherwise ",
+      fmt::join(names, ", "));
 }
 
 std::string Recorder::growth_warning() const {
@@ -58,8 +60,8 @@ std::string Recorder::growth_warning() const {
   if (!(growth > limit * scale)) return "";
   return fmt::format(
       "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the maximum energy "
-      "(limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and remove options "
-      "-motion_snes_... that stop Newton's method early.{}",
+      "(limit {:.0f} %): the equations of motion are not satisfied; take {}a smaller motion.step, and remove options "
+      "-motion_snes_... that stop Newton's method early",
       growth, balance_.work(), 100 * growth / scale, 100 * limit, clamped_frames());
 }
 

@@ -97,6 +97,12 @@ TILTED = BEAM.replace("to: [1, 0, 0]", "to: [0, 1, 0]").replace("[0, 1, 0]}, mat
 SAGGING = "gravity: [0, 0, -9.81]\n" + body(BEAM % "", *(h.replace("0, 0, 1]", "0, 1, 0]") for h in TWO_HINGES), motion="",
                                            probes="{end: {at: a.middle}}")
 
+# Its frame follows the fastest vibrations of its free end.
+FLYING = body(BEAM.replace("elements: 8", "elements: 12").replace("0.02, orientation", "0.012, orientation") % (
+    ", frame: clamped, initial: {rotation: [0.3, -0.5, 0.2], angular_velocity: [1.5, -2, 3], deformation: ["
+    '"-0.5*(0.02*pi)^2*(x/2 + sin(2*pi*x)/(4*pi)) - 0.5*(0.03)^2*4*x^3/3", "0.02*sin(pi*x)", "0.03*x^2"]}'),
+    motion="{end: 0.002, step: 5e-5}")
+
 # Two shells that meet without common nodes; a movable straight edge across the seam.
 SEAM = """bodies:
   plate: {mesh: {file: {path: seam.inp}}}
