@@ -120,8 +120,8 @@ class Refinement {
       const RunResult one = moved(finer, scene::Formulation::cfr, std::nullopt, comm_, accuracy_);
       took = one.motion_seconds;
       if (std::abs(one.end - own.end) > 2 * scene_.motion.step + scene_.motion.output.value_or(0))
-        throw RunError(
-            fmt::format("an event ends the simulation at t = {:.4g} s, in a finer one at {:.4g} s", own.end, one.end));
+        throw RunError(fmt::format("the simulation ends at t = {:.4g} s, {} at {:.4g} s, since an event ends it",
+                                   own.end, mesh ? "with shorter elements" : "in shorter steps", one.end));
       const double change = worst_error(all.back(), one.series);
       const bool ordered = before > 0 && change < 0.4 * before;
       limit = one.series;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "exact_motion.h"
 #include "floe/math/rounded.h"
@@ -27,7 +28,6 @@ Scene finer(const Scene& scene) {
 
 /// Adaptive steps by their tolerance.
 std::string steps_in_words(const Scene& scene, int n) {
-  if (n == 1) return scene.motion.tolerance ? "the scene's tolerance" : "the scene's steps";
   return scene.motion.tolerance ? fmt::format("1/{} of the tolerance", n * n * n)
                                 : fmt::format("steps 1/{} as long", n);
 }
@@ -52,6 +52,9 @@ TradeoffReference of_full_order(const Scene& scene, const Series& own, MPI_Comm 
   reference.series = run(finer(scene), Formulation::nlffr, comm, std::nullopt).series;
   reference.error = worst_error(own, reference.series) / (halved ? 3 : 15);
   reference.error_lacks = "the error of strains and floating frames";
+  const double end = own.t.back(), finer_end = reference.series.t.back();
+  if (std::abs(finer_end - end) > 2 * scene.motion.step + scene.motion.output.value_or(0))
+    reference.error_lacks += fmt::format(", and of the end, {:.4g} instead of {:.4g} s", end, finer_end);
   return reference;
 }
 

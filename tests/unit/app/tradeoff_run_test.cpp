@@ -216,6 +216,27 @@ probes: {tip: {at: rod.end, quantity: displacement}}
   CHECK(worst_error(own, reference.series) < 0.01);
 }
 
+// At a level between the maxima of both meshes it ends the motion on one of them alone.
+TEST_CASE("trade-off: cfr is no reference where an event ends its motion on one mesh and not on another") {
+  scene::Scene scene = cantilever("2", "mean-axis", "end: 1.5, step: 0.01");
+  const auto maximum = [&](int elements) {
+    scene::Scene other = scene;
+    other.bodies[0].mesh.elements = {elements};
+    const Series series = moved(other, Formulation::cfr).series;
+    const auto column = std::find_if(series.columns.begin(), series.columns.end(),
+                                     [](const auto& one) { return one.name == "tip.y"; }) -
+                        series.columns.begin();
+    double greatest = 0;
+    for (const auto& values : series.values) greatest = std::max(greatest, values[column]);
+    return greatest;
+  };
+  scene.events.push_back({scene::Event::Kind::stop, "high", "", {}, {}, "tip.y", 0.5 * (maximum(2) + maximum(4)), {}});
+  const Series own = moved(scene, Formulation::nlffr).series;
+  const TradeoffReference reference = tradeoff_reference(scene, {}, own, PETSC_COMM_WORLD);
+  CHECK(reference.formulation == Formulation::nlffr);
+  CHECK_THAT(reference.why, Contains("with shorter elements at") && Contains("since an event ends it"));
+}
+
 TEST_CASE("trade-off: without probes there is nothing to compare, and no folder is left") {
   const OwnFolder own;
   scene::Scene scene = cantilever();
