@@ -151,7 +151,8 @@ std::optional<double> Crossings::change_of_side(const Step& step, std::size_t i,
 
 /// Of an event whose function has one sign at both ends of the step: where it has the other one between. It is seen in
 /// the middle, in adaptive steps at all quarters, and at the vertex of the parabola through the least of these values
-/// and its neighbours, which moves to there until it stays.
+/// and its neighbours, which moves to there until it stays; not where the parabola has no minimum, or one that is
+/// clearly on the same side.
 std::optional<double> Crossings::visit(const Step& step, std::size_t i, const Seen& now) const {
   struct Sample {
     double s, value;

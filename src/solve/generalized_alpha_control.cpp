@@ -189,28 +189,26 @@ PetscErrorCode residuals_within(TS ts, PetscReal x) {
   PetscFunctionReturn(0);
 }
 
-// e = J^-1 (0, c): what the constraints would change q by in the middle. Of motions that drives prescribe q is exact at
-// both ends whatever the step.
+// e = J^-1 (0, c), c of residuals_within: what the constraints would change q by there. Of motions that drives
+// prescribe q is exact at both ends whatever the step.
 PetscErrorCode estimate_error_of_constraints(TS ts, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
 
   PetscFunctionBegin;
-  PetscCall(residuals_within(ts, 0.5));
   PetscCall(solve_scaled(ts, data->middle_U, data->work_U));
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(KSPGetConvergedReason(ksp, reason));
   PetscFunctionReturn(0);
 }
 
-// e = J^-1 shift_a M J^-1 (f, 0): what the forces would change q by within the step, at x h, without what is stiff or
-// strongly damped. Loads of sensors may begin and end there.
-PetscErrorCode estimate_error_of_loads(TS ts, PetscReal x, KSPConvergedReason* reason) {
+// e = J^-1 shift_a M J^-1 (f, 0), f of residuals_within: what the forces would change q by there, without what is stiff
+// or strongly damped. Loads that depend on sensors may begin and end within a step.
+PetscErrorCode estimate_error_of_loads(TS ts, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
 
   PetscFunctionBegin;
-  PetscCall(residuals_within(ts, x));
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(solve_scaled(ts, data->middle_V, data->work_U));
   PetscCall(KSPGetConvergedReason(ksp, reason));
@@ -222,6 +220,36 @@ PetscErrorCode estimate_error_of_loads(TS ts, PetscReal x, KSPConvergedReason* r
   PetscCall(VecPointwiseMult(data->work_F, data->work_F, data->dynamic));
   PetscCall(solve_scaled(ts, data->work_F, data->work_U));
   PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscFunctionReturn(0);
+}
+
+// The square of the mass norm of the error in work_U, of this rank; infinite where the equations cannot be evaluated.
+double square_of_error(const GeneralizedAlpha* data, KSPConvergedReason reason) {
+  double square = 0;
+  const Entries e(data->work_U), mass(data->mass), dynamic(data->dynamic);
+  for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) square += dynamic[i] * mass[i] * PetscSqr(e[i]);
+  return reason < 0 || PetscIsNanReal(square) ? PETSC_INFINITY : square;
+}
+
+// Squares of errors within the step, of this rank: of the constraints in its middle, and, where loads depend on
+// sensors, of the loads at its three quarters.
+PetscErrorCode square_errors_within(TS ts, double* of_constraints, double* of_loads) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  for (const int quarter : {1, 2, 3}) {
+    if (quarter != 2 && !data->state_loads) continue;
+    PetscCall(residuals_within(ts, 0.25 * quarter));
+    if (quarter == 2) {
+      PetscCall(estimate_error_of_constraints(ts, &reason));
+      *of_constraints = square_of_error(data, reason);
+    }
+    if (data->state_loads) {
+      PetscCall(estimate_error_of_loads(ts, &reason));
+      of_loads[quarter - 1] = square_of_error(data, reason);
+    }
+  }
   PetscFunctionReturn(0);
 }
 
@@ -264,21 +292,11 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   KSPConvergedReason reason;
 
   PetscFunctionBegin;
-  const auto add = [&](double& sum) {
-    const Entries e(data->work_U), mass(data->mass), dynamic(data->dynamic);
-    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) sum += dynamic[i] * mass[i] * PetscSqr(e[i]);
-    if (reason < 0) sum = PETSC_INFINITY;
-  };
   PetscCall(estimate_error(ts, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
-  add(sums[of_end]);
-  PetscCall(estimate_error_of_constraints(ts, &reason));
-  add(sums[of_constraints]);
-  for (int quarter = 1; data->state_loads && quarter <= 3; ++quarter) {
-    PetscCall(estimate_error_of_loads(ts, 0.25 * quarter, &reason));
-    add(sums[of_loads + quarter - 1]);
-  }
+  sums[of_end] = square_of_error(data, reason);
+  PetscCall(square_errors_within(ts, &sums[of_constraints], &sums[of_loads]));
   {
     const Entries U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
     for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
@@ -287,8 +305,6 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, count, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
-  for (int within = of_constraints; within < distance; ++within)
-    if (PetscIsNanReal(sums[within])) sums[within] = PETSC_INFINITY;  // the equations cannot be evaluated there
   data->reach_tried = PetscSqrtReal(sums[distance]);
   const PetscReal round_off = least * PetscSqrtReal(sums[size]);
   const bool rests = data->from_rest && !(data->reach_tried > round_off);  // the load begins later
