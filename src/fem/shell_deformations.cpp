@@ -58,6 +58,18 @@ void stretch(const Geometry& t, Deformations& out) {
   }
 }
 
+/// Drilling about the normals of the corners.
+void tilt(const Geometry& t, Deformations& out) {
+  for (int i = 0; i < 3; ++i) {
+    if (t.tilt[i].isZero(0)) continue;
+    const Eigen::Matrix<double, 12, 1> drilled = out.rows.col(6 * i + 5);
+    out.rows.col(6 * i + 3) += t.tilt[i].x() * drilled;
+    out.rows.col(6 * i + 4) += t.tilt[i].y() * drilled;
+    for (int j = 0; j < 3; ++j)  // the plane rotates by (w_y, -w_x)
+      out.rows.col(6 * j + 2) += (t.tilt[i].y() * t.gradient[j].x() - t.tilt[i].x() * t.gradient[j].y()) * drilled;
+  }
+}
+
 /// d.eps.d of the edges d = 12, 23, 31 at each corner, per drilling rotation, times 3 / (2 area): the optimal template,
 /// beta_1..9 = 1, 2, 1, 0, 1, -1, -1, -1, -2. Source: Felippa 2003.
 const std::array<Matrix3, 3>& natural_strains() {
@@ -107,6 +119,7 @@ Deformations deformations(const Geometry& geometry, const ShellSection& section)
     drill.col(6 * i + 4).array() += height / 2 * geometry.gradient[i].y();
     drill.col(6 * i + 3).array() += height / 2 * geometry.gradient[i].x();
   }
+  tilt(geometry, out);
   to_body_axes(out.rows, geometry.axes);
   return out;
 }

@@ -32,6 +32,13 @@ Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis) {
   return g;
 }
 
+Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis, const Normals& normals) {
+  Geometry g = geometry(nodes, axis);
+  for (int i = 0; i < 3; ++i)
+    if (const Eigen::Vector3d n = g.axes.transpose() * normals[i]; !n.isZero(0)) g.tilt[i] = n.head<2>() / n.z();
+  return g;
+}
+
 Middle middle(const Geometry& geometry, int k) {
   const Edge& edge = geometry.edge[k];
   Middle m;

@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
+
 #include "floe/error.h"
 #include "floe/fem/shell.h"
+#include "shell_triangle.h"
 
 namespace floe::fem {
 namespace {
@@ -39,7 +43,10 @@ using Matrix24 = Eigen::Matrix<double, 24, 24>;
 Matrix24 shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes, const ShellSection& section) {
   Matrix24 K = Matrix24::Zero();
   const auto parts = triangles(nodes);
-  for (int k = 0; k < 4; ++k) add_half(K, shell_triangle_stiffness(parts[k], section), k);
+  for (int k = 0; k < 4; ++k) {
+    const shell::Geometry g = shell::geometry(parts[k], section.axis, shell::corner_normals(nodes, k));
+    add_half(K, shell::triangle_stiffness(g, section), k);
+  }
   return K;
 }
 
@@ -50,12 +57,32 @@ Matrix24 shell_quadrilateral_mass(const QuadrilateralNodes& nodes, const ShellSe
   return M;
 }
 
+shell::Normals shell::corner_normals(const QuadrilateralNodes& nodes, int triangle) {
+  constexpr double round_off = 1e-12;
+  Normals normals{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d first = nodes[2] - nodes[0], second = nodes[3] - nodes[1];
+  const double size = std::max(first.norm(), second.norm());
+  if (std::abs((nodes[1] - nodes[0]).dot(first.cross(second))) < round_off * size * size * size) return normals;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(quadrilateral_triangles[triangle][i]);
+    normals[i] = (nodes[(at + 1) % 4] - nodes[at]).cross(nodes[(at + 3) % 4] - nodes[at]);
+  }
+  return normals;
+}
+
+ElementMaps shell_quadrilateral_part(const QuadrilateralNodes& nodes, int triangle, const ShellSection& section) {
+  TriangleNodes corners;
+  for (int i = 0; i < 3; ++i) corners[i] = nodes[quadrilateral_triangles[triangle][i]];
+  const shell::Geometry g = shell::geometry(corners, section.axis, shell::corner_normals(nodes, triangle));
+  return shell::triangle_maps(g, corners, section);
+}
+
 ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section) {
-  const auto parts = triangles(nodes);
+  triangles(nodes);
   ElementMaps maps;
   maps.bending = Eigen::MatrixXd::Zero(24, 24);
   for (int k = 0; k < 4; ++k) {
-    const ElementMaps part = shell_triangle(parts[k], section);
+    const ElementMaps part = shell_quadrilateral_part(nodes, k, section);
     add_half(maps.bending, part.bending, k);
     for (const StrainPoint& p : part.membrane)
       maps.membrane.push_back({p.weight / 2, p.D, widened(p.L, k), widened(p.G, k), p.P});

@@ -23,18 +23,18 @@ void put_together(const StrainPoint& membrane, const StrainPoint& bending, Shell
   }
 }
 
-ShellSample of_triangle(const TriangleNodes& nodes, const ShellSection& section) {
+ShellSample of_triangle(const TriangleNodes& nodes, const shell::Geometry& geometry, const ShellSection& section) {
   ShellSample sample;
-  sample.axes = shell::geometry(nodes, section.axis).axes;
+  sample.axes = geometry.axes;
   for (const Eigen::Vector3d& x : nodes) sample.at += x / 3;
   for (const Eigen::Vector3d& x : nodes) sample.spread += (x - sample.at) * (x - sample.at).transpose() / 12;
-  const ElementMaps maps = shell_triangle(nodes, section);
+  const ElementMaps maps = shell::triangle_maps(geometry, nodes, section);
   if (section.strains == Strains::second_order) {
     put_together(maps.membrane[0], maps.membrane[1], sample);
     return sample;
   }
   const Eigen::MatrixXd none(0, 0), no_gradients(0, 18);
-  const shell::Deformations d = shell::deformations(shell::geometry(nodes, section.axis), section);
+  const shell::Deformations d = shell::deformations(geometry, section);
   put_together(maps.membrane[0],
                {1, none, d.rows.middleRows<3>(3 * shell::mean_curvature), no_gradients, {none, none, none}}, sample);
   return sample;
@@ -72,12 +72,16 @@ std::vector<ShellSample> shell_samples(const Structure& structure, const Mesh::C
     return samples;
   }
   if (cell.kind == CellKind::triangle) {
-    samples.push_back(of_triangle({x[0], x[1], x[2]}, section));
+    const TriangleNodes nodes{x[0], x[1], x[2]};
+    samples.push_back(of_triangle(nodes, shell::geometry(nodes, section.axis), section));
     samples[0].corners = all;
     return samples;
   }
-  for (const auto& corners : quadrilateral_triangles) {
-    samples.push_back(of_triangle({x[corners[0]], x[corners[1]], x[corners[2]]}, section));
+  for (int k = 0; k < 4; ++k) {
+    const auto& corners = quadrilateral_triangles[k];
+    const TriangleNodes nodes{x[corners[0]], x[corners[1]], x[corners[2]]};
+    const shell::Normals normals = shell::corner_normals({x[0], x[1], x[2], x[3]}, k);
+    samples.push_back(of_triangle(nodes, shell::geometry(nodes, section.axis, normals), section));
     samples.back().corners = {corners.begin(), corners.end()};
     samples.back().share = 0.25;
   }

@@ -32,8 +32,7 @@ void mirror(Matrix18& K) {
 
 /// Stiffness of the deformations from `first` on, of which there are count / 3.
 template <int count>
-Matrix18 stiffness(const TriangleNodes& nodes, const ShellSection& section, int first) {
-  const shell::Geometry g = shell::geometry(nodes, section.axis);
+Matrix18 stiffness(const shell::Geometry& g, const ShellSection& section, int first) {
   const shell::Deformations d = shell::deformations(g, section);
   const Eigen::Matrix<double, count, 18> rows = d.rows.middleRows<count>(3 * first);
   Eigen::Matrix<double, count, 18> stressed;
@@ -49,16 +48,23 @@ Matrix18 stiffness(const TriangleNodes& nodes, const ShellSection& section, int 
 
 }  // namespace
 
+Matrix18 shell::triangle_stiffness(const Geometry& geometry, const ShellSection& section) {
+  return stiffness<12>(geometry, section, mean_strain);
+}
+
 Matrix18 shell_triangle_stiffness(const TriangleNodes& nodes, const ShellSection& section) {
-  return stiffness<12>(nodes, section, shell::mean_strain);
+  return shell::triangle_stiffness(shell::geometry(nodes, section.axis), section);
 }
 
 Matrix18 shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section) {
-  return stiffness<6>(nodes, section, shell::mean_curvature);
+  return stiffness<6>(shell::geometry(nodes, section.axis), section, shell::mean_curvature);
 }
 
 ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section) {
-  const shell::Geometry g = shell::geometry(nodes, section.axis);
+  return shell::triangle_strain(shell::geometry(nodes, section.axis), section);
+}
+
+ShellStrain shell::triangle_strain(const Geometry& g, const ShellSection& section) {
   ShellStrain point;
   point.weight = g.area;
   point.D = section.A;
@@ -101,9 +107,12 @@ void add_rotations(const shell::Geometry& g, Strains strains, StrainPoint& point
 }  // namespace
 
 ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& section) {
+  return shell::triangle_maps(shell::geometry(nodes, section.axis), nodes, section);
+}
+
+ElementMaps shell::triangle_maps(const Geometry& g, const TriangleNodes& nodes, const ShellSection& section) {
   const bool second_order = section.strains == Strains::second_order;
-  const shell::Geometry g = shell::geometry(nodes, section.axis);
-  const ShellStrain strain = shell_triangle_strain(nodes, section);
+  const ShellStrain strain = triangle_strain(g, section);
   ElementMaps maps;
   const Eigen::Index gradients = strain.G.rows();
   std::vector<Eigen::MatrixXd> P(3, Eigen::MatrixXd::Zero(gradients, gradients));
@@ -116,7 +125,7 @@ ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& secti
     if (second_order || k == shell::drilling)
       maps.membrane.push_back(
           {g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
-  for (StrainPoint& point : maps.membrane) add_rotations(g, section.strains, point);
+  for (StrainPoint& point : maps.membrane) fem::add_rotations(g, section.strains, point);
   maps.bending = second_order ? Eigen::MatrixXd::Zero(18, 18) : Eigen::MatrixXd(shell_triangle_bending(nodes, section));
 
   const Eigen::Vector3d centroid = (nodes[0] + nodes[1] + nodes[2]) / 3;

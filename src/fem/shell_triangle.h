@@ -13,15 +13,27 @@ struct Edge {
   double factor;          ///< 3 / (2 length^2)
 };
 
+/// Of a surface at the corners, of any length; zero: of the triangle.
+using Normals = std::array<Eigen::Vector3d, 3>;
+
 struct Geometry {
   double area;
   Eigen::Matrix3d axes;                     ///< columns x, y, z in body axes
   std::array<Eigen::Vector2d, 3> corner;    ///< from the centroid, in the element's axes
   std::array<Eigen::Vector2d, 3> gradient;  ///< of the corner's area coordinate [1/m]
   std::array<Edge, 3> edge;                 ///< edge k is opposite to corner k
+  std::array<Eigen::Vector2d, 3> tilt{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                      Eigen::Vector2d::Zero()};  ///< of the corner's normal: (x, y) / z
 };
 
 Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis);
+/// Of a triangle in a surface that is not flat. Corners drill about the surface's normals N there, relative to the
+/// rotation Omega of the triangle's plane, (theta - Omega).N / N_z: where the surface bends without stretching they
+/// rotate about axes in it, which about the triangle's normal would be drilling, and would lock.
+Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis, const Normals& normals);
+/// Of a quadrilateral at the corners of one of its triangles (quadrilateral_triangles): of the edges that meet there;
+/// zero where the quadrilateral is flat but for round-off.
+Normals corner_normals(const QuadrilateralNodes& nodes, int triangle);
 
 /// Four triples of an element's deformations, each with its stiffness per area: U = 1/2 area sum R'SR. Together they
 /// and the rigid motions span the 18 dofs.
@@ -32,6 +44,11 @@ struct Deformations {
 };
 
 Deformations deformations(const Geometry& geometry, const ShellSection& section);
+
+/// What shell_triangle_stiffness, shell_triangle_strain and shell_triangle give.
+Eigen::Matrix<double, 18, 18> triangle_stiffness(const Geometry& geometry, const ShellSection& section);
+ShellStrain triangle_strain(const Geometry& geometry, const ShellSection& section);
+ElementMaps triangle_maps(const Geometry& geometry, const TriangleNodes& nodes, const ShellSection& section);
 
 /// Rows of ShellStrain::G: c_x, c_y of each component c.
 inline int gradient_rows(const ShellSection& section) { return section.strains == Strains::second_order ? 6 : 2; }

@@ -226,8 +226,9 @@ std::unique_ptr<CorotationalElement> CorotationalBody::element(const fem::Mesh::
   if (cell.kind == fem::CellKind::quadrilateral) {
     const auto& [a, b, c] = fem::quadrilateral_triangles[i];
     kind = fem::CellKind::triangle;
+    maps = fem::shell_quadrilateral_part({X[0], X[1], X[2], X[3]}, static_cast<int>(i),
+                                         std::get<fem::ShellSection>(structure_.sections[cell.part]));
     at = {at[a], at[b], at[c]}, X = {X[a], X[b], X[c]};
-    maps = fem::shell_triangle({X[0], X[1], X[2]}, std::get<fem::ShellSection>(structure_.sections[cell.part]));
   } else {
     maps = structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.place));
   }

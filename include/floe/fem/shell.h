@@ -74,9 +74,14 @@ ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection
 
 /// Quadrilateral: the triangles on either side of each diagonal, at half weight: the mean of two triangulated surfaces.
 /// Passes the patch tests of the triangle, flat or warped (a warped element is the mean of its two folded surfaces, and
-/// has the mean of their areas and masses). 24 dofs, four strain points.
+/// has the mean of their areas and masses). 24 dofs, four strain points. Corners drill about the normals N of the
+/// bilinear surface there, relative to the rotation Omega of each triangle's plane, (theta - Omega).N / N.n: where a
+/// warped surface bends without stretching its corners rotate about axes in it, which drill about the triangles'
+/// normals n (a thin element would lock by the square of its warp over the thickness).
 /// @throws InputError  as the triangle; it is not convex, or folds by a right angle or more
 ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section);
+/// One of its triangles (quadrilateral_triangles), at whole weight: 18 dofs.
+ElementMaps shell_quadrilateral_part(const QuadrilateralNodes& nodes, int triangle, const ShellSection& section);
 std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes);  ///< twelve
 /// K and M in fixed size, as for the triangle.
 Eigen::Matrix<double, 24, 24> shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes,

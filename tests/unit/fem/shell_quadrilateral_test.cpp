@@ -28,6 +28,19 @@ TEST_CASE("shell quadrilateral, warped: rigid motions cost nothing, nothing else
   CHECK(values[6] > 1e-7);
 }
 
+// Corners that rotate about axes in the surface bend it and do not drill: energy of the thickness cubed.
+TEST_CASE("shell quadrilateral, warped: bending costs no drilling") {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(24);
+  for (int i = 0; i < 4; ++i) {
+    const Vector3d next = warped[(i + 1) % 4] - warped[i], last = warped[(i + 3) % 4] - warped[i];
+    q.segment<3>(6 * i + 3) = (i + 1) * next - (i * i - 2) * last;
+  }
+  const auto energy = [&](double thickness) {
+    return q.dot(fem::shell_quadrilateral_stiffness(warped, testing::aluminium(thickness)) * q);
+  };
+  CHECK(energy(1e-3) / energy(1e-2) == Approx(1e-3).epsilon(1e-9));
+}
+
 TEST_CASE("shell quadrilateral: fast matrices are those of the maps") {
   const auto section = testing::skew_laminate();
   const fem::ElementMaps maps = fem::shell_quadrilateral(warped, section);

@@ -33,6 +33,7 @@ void check_tangent(const fem::ElementMaps& maps, double size) {
     return f;
   };
   CHECK(relative_error(found, testing::jacobian(reduced, q, 1e-3)) < 1e-8);  // exact for cubics but for round-off
+  CHECK(relative_error(reduced(q), force(maps, q)) < 1e-10);                 // power: f'v = dU/dt at every rate v
   const VectorXd p = testing::Random(8).vector(q.size()), r = testing::Random(9).vector(q.size());
   const auto along = [&](const VectorXd& s) { return VectorXd(maps.tangent(s[0] * p) * r); };
   CHECK(relative_error(fem::stiffness_derivative(maps, p, r),
@@ -64,6 +65,10 @@ TEST_CASE("the tangent of shells with strains of second order, free and at rigid
   check_tangent(
       fem::shell_quadrilateral(
           {Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0), Vector3d(1.2, 1.1, 0), Vector3d(0.3, 0.9, 0)}, section),
+      0.3);
+  check_tangent(
+      fem::shell_quadrilateral(
+          {Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0.2), Vector3d(1.2, 1.1, -0.1), Vector3d(0.3, 0.9, 0)}, section),
       0.3);
   fem::ElementMaps maps = fem::shell_triangle(triangle, section);  // its second and third node follow the first
   const Vector3d arms[] = {triangle[1] - triangle[0], {0.3, -0.2, 0.5}};
