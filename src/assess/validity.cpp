@@ -236,7 +236,7 @@ petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
 }
 
 bool also_of_full_order(const OutOfRange& one) {
-  static const std::set<std::string> those = {"slope", "mesh", "in-plane", "coupling"};
+  static const std::set<std::string> those = {"slope", "mesh", "in-plane", "coupling", "tension"};
   return those.count(one.what) > 0;
 }
 

@@ -51,7 +51,7 @@ std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, con
 /// likewise.
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<solve::State>& states, MPI_Comm comm);
 
-/// Whether the full-order model of the same mesh errs in it, too: slope, mesh, in-plane, coupling.
+/// Whether the full-order model of the same mesh errs in it, too: slope, mesh, in-plane, coupling, tension.
 bool also_of_full_order(const OutOfRange& one);
 
 }  // namespace floe::assess
