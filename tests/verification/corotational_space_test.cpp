@@ -286,6 +286,26 @@ probes:
   CHECK(at["x.x"].back() == Approx(1).epsilon(1e-6));
 }
 
+// f L^3 / (3 EI) + f L / (k G A), two different I and k.
+TEST_CASE("cfr in space: a beam with shear deflects by bending and by shear") {
+  const double f = 1e-5, E = 1e4, G = 4e3;
+  const auto formulation = GENERATE(Formulation::cfr, Formulation::nlffr);
+  const History at = rest(fill(R"yaml(
+bodies:
+  b:
+    mesh: {line: {from: [0, 0, 0], to: [0, 0, 1], elements: 4}}
+    section: {A: 1, Iy: 0.02, Iz: 0.01, J: 0.02, orientation: [1, 0, 0], shear_factor: [0.5, 0.8]}
+    material: {E: $E, G: $G, rho: 1}
+joints: {root: {type: fixed, between: [ground, b.start]}}
+loads: {end: {type: force, at: b.end, force: [$f, $f, 0]}}
+probes: {end: {at: b.end, quantity: displacement}}
+)yaml",
+                               {{"E", number(E)}, {"G", number(G)}, {"f", "\"" + number(f) + "*t\""}}),
+                          formulation);
+  CHECK(at["end.x"].back() == Approx(f / (3 * E * 0.01) + f / (0.5 * G)).epsilon(1e-6));
+  CHECK(at["end.y"].back() == Approx(f / (3 * E * 0.02) + f / (0.8 * G)).epsilon(1e-6));
+}
+
 TEST_CASE("cfr in space: a free beam keeps its energy") {
   const auto flown = [](double step) {
     return move(fill(R"yaml(
