@@ -8,8 +8,8 @@ namespace floe::mesh {
 /// its share. Rank-local.
 class NasBuild {
  public:
-  NasBuild(const NasModel& model, Faults& faults, int rank, int ranks)
-      : model_(model), faults_(faults), rank_(rank), ranks_(ranks), frames_(model, faults) {}
+  NasBuild(const NasModel& model, const DeckRequest& request, Faults& faults, int rank, int ranks)
+      : model_(model), request_(request), faults_(faults), rank_(rank), ranks_(ranks), frames_(model, faults) {}
 
   FileMesh mesh;
   Deck deck;
@@ -64,6 +64,13 @@ class NasBuild {
   /// The part of elements of a property that agree in `variant`; `make` adds its section.
   template <class Make>
   int part_of(long long property, const Variant& variant, const std::string& name, Make&& make);
+  /// Whether the scene gives sections to elements whose property the deck does not have.
+  bool scene_has_sections() const { return request_.section || !request_.parts.empty(); }
+  /// Whether the scene gives this part its section, whatever the deck says.
+  bool replaced(const std::string& part) const;
+  /// The part of an element without property; -1: it cannot have the scene's section.
+  /// @param plain  it has no thickness, offset of its surface or free end of its own
+  int part_of_scene(const char* kind, long long property, long long element, bool plain, Where where);
   template <class Map>
   const typename Map::mapped_type* property(const Map& all, long long id, Where where, const std::string& element);
   const NasMaterial* material(long long id, Where where, const std::string& user);
@@ -87,6 +94,7 @@ class NasBuild {
                   const std::array<Eigen::Vector3d, 2>& x, const Eigen::Vector3d& v, bool mine);
 
   const NasModel& model_;
+  const DeckRequest& request_;
   Faults& faults_;
   int rank_, ranks_;
   NasFrames frames_;

@@ -63,12 +63,28 @@ const typename Map::mapped_type* NasBuild::property(const Map& all, long long id
                                    of_shells ? "shells" : "beams", of_shells ? "beams" : "shells"));
     return nullptr;
   }
+  if (scene_has_sections()) return nullptr;
   std::vector<std::string> known;
   for (const auto& [number, unused] : all) known.push_back(std::to_string(number));
   if (known.size() > 10) known.resize(10);
   faults_.add(where, element + " names property " + std::to_string(id) + ", which is not defined" +
                          (known.empty() ? "" : " (" + listed(known) + " are)"));
   return nullptr;
+}
+
+bool NasBuild::replaced(const std::string& part) const {
+  return std::find(request_.parts.begin(), request_.parts.end(), part) != request_.parts.end();
+}
+
+int NasBuild::part_of_scene(const char* kind, long long property, long long element, bool plain, Where where) {
+  if (model_.shell_properties.contains(property) || model_.beam_properties.contains(property)) return -1;  // refused
+  const std::string name = kind + std::to_string(property);
+  if (plain) return part_of(name[1] == 'S' ? property : -property, {}, name, [](int) {});
+  faults_.add(where,
+              fmt::format("element {} has thicknesses, an offset or free ends of its own, which a section of the "
+                          "scene has not, and property {} is not defined; expected it in the deck",
+                          element, property));
+  return -1;
 }
 
 /// Whether a direction of the material matters, or of the one that it bends by.
@@ -149,14 +165,21 @@ void NasBuild::add_shells() {
     const NasShell& shell = model_.shells[i];
     const NasShellProperty* own =
         property(model_.shell_properties, shell.property, shell.where, "shell " + std::to_string(shell.id));
-    if (!own) continue;
-    double thickness = own->plies.front().thickness;
-    if (shell.thickness > 0 && own->plies.size() == 1)
-      thickness = shell.ratio ? thickness * shell.thickness : shell.thickness;
-    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-    if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
-    const int part = part_of(shell.property, {thickness, shell.offset, axis[0], axis[1], axis[2]}, own->name,
-                             [&](int number) { add_shell_section(shell, *own, thickness, axis, number); });
+    int part = -1;
+    if (own) {
+      double thickness = own->plies.front().thickness;
+      if (shell.thickness > 0 && own->plies.size() == 1)
+        thickness = shell.ratio ? thickness * shell.thickness : shell.thickness;
+      Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+      if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
+      part = part_of(shell.property, {thickness, shell.offset, axis[0], axis[1], axis[2]}, own->name, [&](int number) {
+        if (!replaced(own->name)) add_shell_section(shell, *own, thickness, axis, number);
+      });
+    } else if (scene_has_sections()) {
+      const bool plain = shell.offset == 0 && !(shell.thickness > 0);
+      part = part_of_scene("PSHELL", shell.property, shell.id, plain, shell.where);
+    }
+    if (part < 0) continue;
     if (!mine(i)) continue;
     auto nodes = no_nodes<long long>();
     std::copy_n(shell.nodes.begin(), shell.count, nodes.begin());
@@ -263,7 +286,7 @@ void NasBuild::add_beams() {
     const NasBeamProperty* own =
         property(model_.beam_properties, beam.property, beam.where, "beam " + std::to_string(beam.id));
     const std::optional<Ends> ends = ends_of(beam);
-    if (!own || !ends) continue;
+    if (!ends || (!own && !scene_has_sections())) continue;
     std::array<long long, 4> nodes{-1, -1, -1, -1};
     std::array<Eigen::Vector3d, 2> x;
     for (int end : {0, 1}) {
@@ -276,6 +299,12 @@ void NasBuild::add_beams() {
       faults_.add(beam.where, "beam " + std::to_string(beam.id) + " has no length");
       continue;
     }
+    if (!own) {
+      const int part = part_of_scene("PBAR", beam.property, beam.id, !beam.rod && beam.releases == 0, beam.where);
+      if (part >= 0 && mine(model_.shells.size() + i))
+        mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
+      continue;
+    }
     const Eigen::Vector3d v = orientation_of(beam, *ends, line.normalized());
     if (!own->pieces.empty()) {
       add_pieces(*own, beam, nodes, x, v, mine(model_.shells.size() + i));
@@ -283,7 +312,9 @@ void NasBuild::add_beams() {
     }
     const int part =
         part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases | beam.alone << 12), 1}, own->name,
-                [&](int number) { add_beam_section(*own, beam, v, number); });
+                [&](int number) {
+                  if (!replaced(own->name)) add_beam_section(*own, beam, v, number);
+                });
     if (mine(model_.shells.size() + i)) mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
   }
 }
@@ -302,7 +333,9 @@ void NasBuild::add_pieces(const NasBeamProperty& own, NasBeam beam, const std::a
     beam.releases = (k == 0 ? releases & of_a : 0) | (last ? releases & ~of_a : 0);
     const int part =
         part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases), static_cast<double>(1 + k)},
-                own.name, [&](int number) { add_beam_section(own.pieces[k], beam, v, number); });
+                own.name, [&](int number) {
+                  if (!replaced(own.name)) add_beam_section(own.pieces[k], beam, v, number);
+                });
     const long long label = k == 0 ? beam.id : next_element_++;
     if (mine) mesh.cells.push_back({label, CellKind::line, part, nodes, beam.where});
     nodes[0] = nodes[1];

@@ -81,7 +81,7 @@ DeckFile read_nastran(MPI_Comm comm, const std::string& path, const DeckRequest&
     refuse_cards(model, request, notices, faults);
     refuse_empty(model, faults);
     if (faults.any()) return;
-    NasBuild build(model, faults, rank, ranks);
+    NasBuild build(model, request, faults, rank, ranks);
     build.build();
     mesh = std::move(build.mesh);
     deck = std::move(build.deck);

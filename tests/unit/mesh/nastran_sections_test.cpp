@@ -160,3 +160,28 @@ TEST_CASE("stress points of PBAR and PBEAM are fibres, and shapes have a torsion
   CHECK(beam[0] == Eigen::Vector2d(5, 1));
   CHECK(beam[4] == Eigen::Vector2d(8, 2));
 }
+
+TEST_CASE("the scene has sections for elements without a property, and instead of one that is not read") {
+  const std::string bare = grids + "CQUAD4,1,3,1,2,3,4\nCBAR,9,5,1,2,0.,0.,1.\n";
+  const auto file = read("bare.bdf", bare, {{}, true, {}});
+  CHECK(file.mesh.parts == std::vector<std::string>{"PSHELL3", "PBAR5"});
+  CHECK(file.deck.shell_sections.empty());
+  CHECK(file.deck.beam_sections.empty());
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK_THAT(said(bare), Contains("names property 3, which is not defined"));
+
+  const std::string other = bare + "PSHELL,3,7,.01,7\nPBAR,5,7,1.,1.,1.,1.\n";
+  const auto given = read("given.bdf", other, {{"PSHELL3", "PBAR5"}, false, {}});
+  CHECK(given.mesh.parts == std::vector<std::string>{"PSHELL3", "PBAR5"});
+  CHECK(given.deck.shell_sections.empty());
+  CHECK(given.deck.beam_sections.empty());
+  const auto fault = [](const std::string& text, const mesh::DeckRequest& request) {
+    const auto path = testing::written("fault.bdf", text);
+    return testing::fault_of([&] { mesh::read_nastran(PETSC_COMM_WORLD, path, request); });
+  };
+  CHECK_THAT(fault(other, {{"PSHELL3"}, false, {}}), Contains("PBAR5 names material 7, which is not defined"));
+  for (const std::string& own :
+       {std::string("CQUAD4,1,3,1,2,3,4,,0.1\n"), std::string("CQUAD4,1,3,1,2,3,4\n,,,0.1,0.1,0.1,0.1\n"),
+        std::string("CBAR,1,3,1,2,0.,0.,1.\n,4\n")})
+    CHECK_THAT(fault(grids + own, {{}, true, {}}), Contains("element 1 has thicknesses, an offset or free ends"));
+}
