@@ -29,5 +29,6 @@ for words, values, expected in CASES:
     agrees = found is None if expected is None else found is not None and math.isclose(found, expected, rel_tol=1e-6)
     assert agrees, f"{words}, {values}: {found}, not {expected}"
 assert table.comparison_of("x < 3", "2.5 < 3", True).relation == "<"
+assert table.comparison_of("x <= 3", "2.5 <= 3", True).relation == "<"
 assert table.comparison_of("ok", "true", True) is None
 print(f"{len(CASES)} comparisons of the verification table")

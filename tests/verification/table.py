@@ -39,11 +39,12 @@ def tolerance_of(words, expected):
 
 def comparison_of(words, values, passed):
     """Of two numbers, or None: `1.0272 == Approx( 1.0273 )`, `0.104 < 0.15`, `7 == 7`."""
-    found = re.fullmatch(rf"{NUMBER}\s*(==|<|>)\s*(?:Approx\(\s*)?{NUMBER}(?:\s*\))?", " ".join(values.split()))
+    found = re.fullmatch(rf"{NUMBER}\s*(==|<=?|>=?)\s*(?:Approx\(\s*)?{NUMBER}(?:\s*\))?", " ".join(values.split()))
     if not found:
         return None
     computed, expected = float(found.group(1)), float(found.group(3))
-    return Comparison(words, found.group(2), computed, expected, tolerance_of(words, expected), passed)
+    relation = found.group(2) if found.group(2) == "==" else found.group(2)[0]
+    return Comparison(words, relation, computed, expected, tolerance_of(words, expected), passed)
 
 
 def run(program, folder):
