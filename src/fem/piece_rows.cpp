@@ -293,8 +293,7 @@ void spin_about(const Eigen::Vector3d& arm, int independent_node, PieceRows::Spi
   rotate_arm(arm, spin.at, led, strains, piece);
   const Eigen::Matrix<double, 6, 6> T = spin_arm(arm, spin.own);
   each_rows(piece, [&](auto& rows) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
-        rows.template middleCols<6>(6 * spin.at);
+    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> own = rows.template middleCols<6>(6 * spin.at);
     rows.template middleCols<6>(6 * led) += own * T;
     rows.template middleCols<3>(6 * spin.at).setZero();
     rows.template middleCols<3>(6 * spin.at + 3) = own.template rightCols<3>() * spin.own;

@@ -34,8 +34,10 @@ Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis) {
 
 Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis, const Normals& normals) {
   Geometry g = geometry(nodes, axis);
+  constexpr double least = 0.5;  // of corners that are all but straight the normal says nothing
   for (int i = 0; i < 3; ++i)
-    if (const Eigen::Vector3d n = g.axes.transpose() * normals[i]; !n.isZero(0)) g.tilt[i] = n.head<2>() / n.z();
+    if (const Eigen::Vector3d n = g.axes.transpose() * normals[i]; n.z() > least * n.norm())
+      g.tilt[i] = n.head<2>() / n.z();
   return g;
 }
 

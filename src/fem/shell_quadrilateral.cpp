@@ -58,11 +58,11 @@ Matrix24 shell_quadrilateral_mass(const QuadrilateralNodes& nodes, const ShellSe
 }
 
 shell::Normals shell::corner_normals(const QuadrilateralNodes& nodes, int triangle) {
-  constexpr double round_off = 1e-12;
+  constexpr double flat = 1e-8;  // relative to its size: drilling that bends so little locks nothing
   Normals normals{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   const Eigen::Vector3d first = nodes[2] - nodes[0], second = nodes[3] - nodes[1];
   const double size = std::max(first.norm(), second.norm());
-  if (std::abs((nodes[1] - nodes[0]).dot(first.cross(second))) < round_off * size * size * size) return normals;
+  if (std::abs((nodes[1] - nodes[0]).dot(first.cross(second))) < flat * size * size * size) return normals;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(quadrilateral_triangles[triangle][i]);
     normals[i] = (nodes[(at + 1) % 4] - nodes[at]).cross(nodes[(at + 3) % 4] - nodes[at]);

@@ -28,11 +28,12 @@ struct Geometry {
 
 Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis);
 /// Of a triangle in a surface that is not flat. Corners drill about the surface's normals N there, relative to the
-/// rotation Omega of the triangle's plane, (theta - Omega).N / N_z: where the surface bends without stretching they
-/// rotate about axes in it, which about the triangle's normal would be drilling, and would lock.
+/// rotation Omega of the triangle's plane, (theta - Omega).N / N.n, except where N is 60 degrees or more from n: where
+/// the surface bends without stretching they rotate about axes in it, which about the triangle's normal would be
+/// drilling, and would lock.
 Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis, const Normals& normals);
 /// Of a quadrilateral at the corners of one of its triangles (quadrilateral_triangles): of the edges that meet there;
-/// zero where the quadrilateral is flat but for round-off.
+/// zero where the quadrilateral is all but flat.
 Normals corner_normals(const QuadrilateralNodes& nodes, int triangle);
 
 /// Four triples of an element's deformations, each with its stiffness per area: U = 1/2 area sum R'SR. Together they
