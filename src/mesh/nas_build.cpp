@@ -217,6 +217,9 @@ void NasBuild::report_unused() {
     if (!is_used(used_properties_, id)) unused.push_back(own.name);
   for (const auto& [id, own] : model_.materials)
     if (!is_used(used_materials_, id)) unused.push_back(own.material.name);
+  for (const auto& [part, count] : without_property_)
+    notices.push_back(faults_.text_of({0, 1}) + ": " + counted(count, "element") + " of part " + part +
+                      " with the section of the scene: the deck does not have the property");
   if (!unused.empty()) notices.push_back(faults_.text_of({0, 1}) + ": not used by any element: " + listed(unused));
 }
 

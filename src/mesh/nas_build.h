@@ -69,7 +69,7 @@ class NasBuild {
   /// Whether the scene gives this part its section, whatever the deck says.
   bool replaced(const std::string& part) const;
   /// The part of an element without property; -1: it cannot have the scene's section.
-  /// @param plain  it has no thickness, offset of its surface or free end of its own
+  /// @param plain  it has no thickness, offset of its surface or free end of its own, and is no rod
   int part_of_scene(const char* kind, long long property, long long element, bool plain, Where where);
   template <class Map>
   const typename Map::mapped_type* property(const Map& all, long long id, Where where, const std::string& element);
@@ -111,6 +111,7 @@ class NasBuild {
   std::map<long long, RigidLink> free_;       // rotations of dependent grids that are their own
   std::map<std::size_t, unsigned> released_;  // of beams at links that leave rotations free, as NasBeam::releases
   std::vector<long long> used_materials_, used_properties_;
+  std::map<std::string, long long> without_property_;  // elements of parts that have the scene's section
 };
 
 }  // namespace floe::mesh

@@ -79,11 +79,14 @@ bool NasBuild::replaced(const std::string& part) const {
 int NasBuild::part_of_scene(const char* kind, long long property, long long element, bool plain, Where where) {
   if (model_.shell_properties.contains(property) || model_.beam_properties.contains(property)) return -1;  // refused
   const std::string name = kind + std::to_string(property);
-  if (plain) return part_of(name[1] == 'S' ? property : -property, {}, name, [](int) {});
-  faults_.add(where,
-              fmt::format("element {} has thicknesses, an offset or free ends of its own, which a section of the "
-                          "scene has not, and property {} is not defined; expected it in the deck",
-                          element, property));
+  if (plain) {
+    ++without_property_[name];
+    return part_of(name[1] == 'S' ? property : -property, {}, name, [](int) {});
+  }
+  faults_.add(where, fmt::format("element {} is a rod, or has thicknesses, an offset or free ends of its own, which a "
+                                 "section of the scene does not have, and property {} is not defined; expected it in "
+                                 "the deck",
+                                 element, property));
   return -1;
 }
 

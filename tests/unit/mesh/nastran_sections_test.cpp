@@ -168,6 +168,8 @@ TEST_CASE("the scene has sections for elements without a property, and instead o
   CHECK(file.deck.shell_sections.empty());
   CHECK(file.deck.beam_sections.empty());
   CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK_THAT(all_of(file.notices), Contains("1 element of part PSHELL3 with the section of the scene") &&
+                                       Contains("1 element of part PBAR5 with"));
   CHECK_THAT(said(bare), Contains("names property 3, which is not defined"));
 
   const std::string other = bare + "PSHELL,3,7,.01,7\nPBAR,5,7,1.,1.,1.,1.\n";
@@ -182,6 +184,7 @@ TEST_CASE("the scene has sections for elements without a property, and instead o
   CHECK_THAT(fault(other, {{"PSHELL3"}, false, {}}), Contains("PBAR5 names material 7, which is not defined"));
   for (const std::string& own :
        {std::string("CQUAD4,1,3,1,2,3,4,,0.1\n"), std::string("CQUAD4,1,3,1,2,3,4\n,,,0.1,0.1,0.1,0.1\n"),
-        std::string("CBAR,1,3,1,2,0.,0.,1.\n,4\n")})
-    CHECK_THAT(fault(grids + own, {{}, true, {}}), Contains("element 1 has thicknesses, an offset or free ends"));
+        std::string("CBAR,1,3,1,2,0.,0.,1.\n,4\n"), std::string("CROD,1,3,1,2\n")})
+    CHECK_THAT(fault(grids + own, {{}, true, {}}),
+               Contains("element 1 is a rod, or has thicknesses, an offset or free ends"));
 }
