@@ -238,7 +238,7 @@ TEST_CASE("validity: tension stiffens the torsion of a rotating strip") {
 
 // Terms that are missing from the full-order model are warned of along a motion, too, also where the reduction's error
 // was measured.
-TEST_CASE("validity: motions of bodies whose strains lack terms are warned of") {
+TEST_CASE("validity: terms that strains are without are warned of along motions") {
   const auto [body, what] = GENERATE(
       std::pair("mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 16}}\n"
                 "    section: {shape: rectangle, width: 0.1, height: 4e-3, orientation: [0, 1, 0]}\n"
