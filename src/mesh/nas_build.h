@@ -70,7 +70,7 @@ class NasBuild {
   bool replaced(const std::string& part) const;
   /// The part of an element without property; -1: it cannot have the scene's section.
   /// @param plain  it has no thickness, offset of its surface or free end of its own, and is no rod
-  int part_of_scene(const char* kind, long long property, long long element, bool plain, Where where);
+  int part_of_scene(CellKind kind, long long property, long long element, bool plain, Where where);
   template <class Map>
   const typename Map::mapped_type* property(const Map& all, long long id, Where where, const std::string& element);
   const NasMaterial* material(long long id, Where where, const std::string& user);

@@ -76,12 +76,13 @@ bool NasBuild::replaced(const std::string& part) const {
   return std::find(request_.parts.begin(), request_.parts.end(), part) != request_.parts.end();
 }
 
-int NasBuild::part_of_scene(const char* kind, long long property, long long element, bool plain, Where where) {
+int NasBuild::part_of_scene(CellKind kind, long long property, long long element, bool plain, Where where) {
   if (model_.shell_properties.contains(property) || model_.beam_properties.contains(property)) return -1;  // refused
-  const std::string name = kind + std::to_string(property);
+  const bool beam = is_line(kind);
+  const std::string name = (beam ? "PBAR" : "PSHELL") + std::to_string(property);
   if (plain) {
     ++without_property_[name];
-    return part_of(name[1] == 'S' ? property : -property, {}, name, [](int) {});
+    return part_of(beam ? -property : property, {}, name, [](int) {});
   }
   faults_.add(where, fmt::format("element {} is a rod, or has thicknesses, an offset or free ends of its own, which a "
                                  "section of the scene does not have, and property {} is not defined; expected it in "
@@ -168,6 +169,8 @@ void NasBuild::add_shells() {
     const NasShell& shell = model_.shells[i];
     const NasShellProperty* own =
         property(model_.shell_properties, shell.property, shell.where, "shell " + std::to_string(shell.id));
+    const CellKind kind = shell.count == 3 ? (shell.quadratic ? CellKind::triangle6 : CellKind::triangle)
+                                           : (shell.quadratic ? CellKind::quadrilateral8 : CellKind::quadrilateral);
     int part = -1;
     if (own) {
       double thickness = own->plies.front().thickness;
@@ -180,15 +183,13 @@ void NasBuild::add_shells() {
       });
     } else if (scene_has_sections()) {
       const bool plain = shell.offset == 0 && !(shell.thickness > 0);
-      part = part_of_scene("PSHELL", shell.property, shell.id, plain, shell.where);
+      part = part_of_scene(kind, shell.property, shell.id, plain, shell.where);
     }
     if (part < 0) continue;
     if (!mine(i)) continue;
     auto nodes = no_nodes<long long>();
     std::copy_n(shell.nodes.begin(), shell.count, nodes.begin());
     if (shell.quadratic) std::copy_n(shell.middles.begin(), shell.count, nodes.begin() + shell.count);
-    const CellKind kind = shell.count == 3 ? (shell.quadratic ? CellKind::triangle6 : CellKind::triangle)
-                                           : (shell.quadratic ? CellKind::quadrilateral8 : CellKind::quadrilateral);
     mesh.cells.push_back({shell.id, kind, part, nodes, shell.where});
   }
 }
@@ -303,7 +304,8 @@ void NasBuild::add_beams() {
       continue;
     }
     if (!own) {
-      const int part = part_of_scene("PBAR", beam.property, beam.id, !beam.rod && beam.releases == 0, beam.where);
+      const int part =
+          part_of_scene(CellKind::line, beam.property, beam.id, !beam.rod && beam.releases == 0, beam.where);
       if (part >= 0 && mine(model_.shells.size() + i))
         mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
       continue;
