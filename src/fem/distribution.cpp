@@ -3,6 +3,7 @@
 #include "floe/fem/mesh.h"
 #include "floe/mesh/exchange.h"
 #include "floe/petsc/rank.h"
+#include "surface_rise.h"
 
 namespace floe::fem {
 namespace {
@@ -171,6 +172,7 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks,
       mesh.spins.push_back({local(f.node), Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2]), f.others});
   }
   std::sort(mesh.spins.begin(), mesh.spins.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  set_rises(mesh);
   return mesh;
 }
 

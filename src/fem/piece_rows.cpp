@@ -191,11 +191,12 @@ void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const Sh
 
 /// @param normals  of the surface at the corners
 void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes, const shell::Normals& normals,
-                    double share, int part, PieceParts parts, PieceRows& piece) {
+                    double share, const Mesh::Cell& cell, PieceParts parts, PieceRows& piece) {
   std::copy(nodes.begin(), nodes.end(), piece.node.begin());
   piece.nodes = 3;
   const FlatBody* flat = flat_body(structure);
-  const auto& section = std::get<ShellSection>((flat ? flat->sections : structure.sections)[part]);
+  const ShellSection section =
+      on_curved_surface(std::get<ShellSection>((flat ? flat->sections : structure.sections)[cell.part]), cell.rise);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
   const shell::Geometry g = shell::geometry({at[nodes[0]], at[nodes[1]], at[nodes[2]]}, section.axis, normals);
   if (parts.bending || parts.strain) {
@@ -341,14 +342,14 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
   const auto& c = cell.place;
   if (cell.kind == CellKind::triangle) {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-    triangle_piece(structure, {c[0], c[1], c[2]}, {none, none, none}, 1, cell.part, parts, pieces[0]);
+    triangle_piece(structure, {c[0], c[1], c[2]}, {none, none, none}, 1, cell, parts, pieces[0]);
   } else if (cell.kind == CellKind::quadrilateral) {
     const FlatBody* flat = flat_body(structure);
     const auto& at = flat ? flat->positions : structure.mesh.positions;
     for (int k = 0; k < 4; ++k) {
       const auto& of = quadrilateral_triangles[k];
       const shell::Normals normals = shell::corner_normals({at[c[0]], at[c[1]], at[c[2]], at[c[3]]}, k);
-      triangle_piece(structure, {c[of[0]], c[of[1]], c[of[2]]}, normals, 0.5, cell.part, parts, pieces[k]);
+      triangle_piece(structure, {c[of[0]], c[of[1]], c[of[2]]}, normals, 0.5, cell, parts, pieces[k]);
     }
   } else {
     generic_piece(structure, cell, parts, pieces[0]);

@@ -42,16 +42,16 @@ void bend(const Geometry& t, const Matrix3& bending, Deformations& out) {
   out.stiffness[mean_curvature] = bending;
 }
 
-/// Strain of the constant-strain triangle whose corners move by u_i - alpha/2 theta_i z x corner_i, alpha = 3/2, and
+/// Strain of the constant-strain triangle whose corners move by u_i - alpha/2 theta_i z x corner_i, and
 /// the drilling rotations less that triangle's own.
-void stretch(const Geometry& t, Deformations& out) {
+void stretch(const Geometry& t, double alpha, Deformations& out) {
   auto mean = out.rows.middleRows<3>(3 * mean_strain);
   auto drill = out.rows.middleRows<3>(3 * drilling);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d &g = t.gradient[i], &c = t.corner[i];
     mean.col(6 * i) = strain({1, 0}, g);
     mean.col(6 * i + 1) = strain({0, 1}, g);
-    mean.col(6 * i + 5) = strain({0.75 * c.y(), -0.75 * c.x()}, g);
+    mean.col(6 * i + 5) = strain({alpha / 2 * c.y(), -alpha / 2 * c.x()}, g);
     drill.col(6 * i).setConstant(g.y() / 2);
     drill.col(6 * i + 1).setConstant(-g.x() / 2);
     drill(i, 6 * i + 5) = 1;
@@ -103,7 +103,7 @@ void drill(const Geometry& t, const ShellSection& section, Deformations& out) {
 Deformations deformations(const Geometry& geometry, const ShellSection& section) {
   Deformations out;
   out.rows.setZero();
-  stretch(geometry, out);
+  stretch(geometry, section.drilling, out);
   bend(geometry, section.bending, out);
   drill(geometry, section, out);
   out.stiffness[mean_strain] = section.A;

@@ -133,6 +133,14 @@ ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& 
   return section;
 }
 
+ShellSection on_curved_surface(ShellSection section, double rise) {
+  const double thickness_squared = 12 * section.bending.trace() / section.A.trace();
+  const double eta = 1 / (1 + 100 * rise * rise / thickness_squared);
+  section.higher_order *= eta;
+  section.drilling *= std::pow(eta, 1. / 12);
+  return section;
+}
+
 std::vector<ShellLayer> shell_layers(const std::vector<Ply>& plies, double offset) {
   double z = offset;
   for (const Ply& ply : plies) z -= ply.thickness / 2;

@@ -82,6 +82,7 @@ struct Edge {
   int first, second;
   double along[3];               // from the first to the second
   double across[3];              // of a shell: in its plane, unit vector
+  double alpha;                  // of a shell
   int beam, inside;              // of a beam; of a shell element that belongs to the place as a whole
   int middle = -1;               // index of the node between, of elements of second order
   double shares[3] = {0, 0, 0};  // integrals of its quadratic functions: of the first, the second, the one between
@@ -100,25 +101,30 @@ void set_curve(const fem::Mesh& mesh, const Set& set, int a, int b, int between,
   }
 }
 
-Edge edge_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, const Set& set, int a, int b) {
+Edge edge_of(const fem::Structure& structure, const fem::Mesh::Cell& cell, const Set& set, int a, int b) {
   if (set.of(a) > set.of(b)) std::swap(a, b);
-  const auto at = [&](int corner) -> const Eigen::Vector3d& { return mesh.positions[corner]; };
+  const auto at = [&](int corner) -> const Eigen::Vector3d& { return structure.mesh.positions[corner]; };
   const Eigen::Vector3d along = at(b) - at(a);
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  double alpha = 1;
   if (is_shell(cell)) {
     const auto& k = cell.place;
+    const auto& section = std::get<fem::ShellSection>(structure.sections[cell.part]);
     across = (at(k[1]) - at(k[0])).cross(at(k[2]) - at(k[0])).cross(along).normalized();
+    alpha = fem::on_curved_surface(section, cell.rise).drilling;
   }
   return {set.of(a),
           set.of(b),
           {along.x(), along.y(), along.z()},
           {across.x(), across.y(), across.z()},
+          alpha,
           is_shell(cell) ? 0 : 1,
           is_shell(cell) && set.contains(cell) ? 1 : 0};
 }
 
 /// Of all ranks, on every rank, edges of one pair of nodes one after the other. Collective.
-std::vector<Edge> edges_within(const fem::Mesh& mesh, const Set& set) {
+std::vector<Edge> edges_within(const fem::Structure& structure, const Set& set) {
+  const fem::Mesh& mesh = structure.mesh;
   std::vector<Edge> mine, copies;
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     const auto corners = cell.corners();
@@ -127,7 +133,7 @@ std::vector<Edge> edges_within(const fem::Mesh& mesh, const Set& set) {
       const int a = corners[i], b = corners[(i + 1) % corners.size()];
       const int between = mesh::is_quadratic(cell.kind) ? cell.places()[corners.size() + i] : -1;
       if (set.of(a) < 0 || set.of(b) < 0 || (between >= 0 && set.of(between) < 0)) continue;
-      mine.push_back(edge_of(mesh, cell, set, a, b));
+      mine.push_back(edge_of(structure, cell, set, a, b));
       if (between >= 0) set_curve(mesh, set, a, b, between, mine.back());
     }
   }
@@ -142,21 +148,21 @@ std::vector<Edge> edges_within(const fem::Mesh& mesh, const Set& set) {
 }
 
 /// What the rotation of the first end adds to the integral of the displacements, l^2 / 12 A (theta x s), A the mean
-/// over the elements that have the edge; of the second end the negative.
+/// over the elements that have the edge, alpha in the plane of a shell; of the second end the negative.
 Eigen::Matrix3d arm_of(std::vector<Edge>::const_iterator begin, std::vector<Edge>::const_iterator end) {
   const Eigen::Vector3d along(begin->along[0], begin->along[1], begin->along[2]);
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   for (auto edge = begin; edge != end; ++edge) {
     const Eigen::Vector3d across(edge->across[0], edge->across[1], edge->across[2]);
-    A += 0.5 / static_cast<double>(end - begin) * across * across.transpose();
+    A += (edge->alpha - 1) / static_cast<double>(end - begin) * across * across.transpose();
   }
   return -along.norm() / 12 * A * math::skew(along);
 }
 
 /// @param shape  as of area_weights: l / 6 (2 s_i + s_j), and arms by its mean, so that resultant and moment are exact
-Weights edge_weights(const fem::Mesh& mesh, const Set& set, const std::vector<double>& shape) {
+Weights edge_weights(const fem::Structure& structure, const Set& set, const std::vector<double>& shape) {
   Weights weights = zero(set.size());
-  const std::vector<Edge> edges = edges_within(mesh, set);
+  const std::vector<Edge> edges = edges_within(structure, set);
   for (auto begin = edges.begin(); begin != edges.end();) {
     const auto end = std::find_if(begin, edges.end(), [&](const Edge& other) {
       return std::pair(other.first, other.second) != std::pair(begin->first, begin->second);
@@ -195,7 +201,7 @@ Weights place_weights(const fem::Structure& structure, const std::vector<PetscIn
     const std::vector<double> one(nodes.size(), 1);
     if (Weights found = area_weights(mesh, set, one); all_positive(found))
       weights = std::move(found), found_measure.of = PlaceMeasure::Of::areas;
-    else if (found = edge_weights(mesh, set, one); all_positive(found))
+    else if (found = edge_weights(structure, set, one); all_positive(found))
       weights = std::move(found), found_measure.of = PlaceMeasure::Of::edges;
   }
   double sum = 0;
@@ -222,10 +228,11 @@ Weights weights_of(const fem::Structure& structure, const mesh::NodeSet& place) 
   return weights;
 }
 
-std::vector<reduction::WeightedNode> shaped_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+std::vector<reduction::WeightedNode> shaped_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes,
                                                     PlaceMeasure::Of of, const std::vector<double>& shape) {
-  const Set set(mesh, nodes);
-  Weights weights = of == PlaceMeasure::Of::areas ? area_weights(mesh, set, shape) : edge_weights(mesh, set, shape);
+  const Set set(structure.mesh, nodes);
+  Weights weights =
+      of == PlaceMeasure::Of::areas ? area_weights(structure.mesh, set, shape) : edge_weights(structure, set, shape);
   for (std::size_t i = 0; i < nodes.size(); ++i) weights[i].node = nodes[i];
   return weights;
 }

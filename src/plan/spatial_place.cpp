@@ -135,7 +135,7 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
     shape.push_back(load.shape ? (*load.shape)(at.x(), at.y(), at.z()) : 1);
     largest = std::max(largest, std::abs(shape.back()));
   }
-  const std::vector<reduction::WeightedNode> weights = shaped_weights(structure.mesh, place.nodes, measure.of, shape);
+  const std::vector<reduction::WeightedNode> weights = shaped_weights(structure, place.nodes, measure.of, shape);
   const double small = 1e-14 * largest * measure.size;
   std::vector<LoadPart> parts;
   for (const double sign : {1., -1.}) {  // nodes without weight, which may have arms, belong to the first part

@@ -226,11 +226,12 @@ std::unique_ptr<CorotationalElement> CorotationalBody::element(const fem::Mesh::
   if (cell.kind == fem::CellKind::quadrilateral) {
     const auto& [a, b, c] = fem::quadrilateral_triangles[i];
     kind = fem::CellKind::triangle;
+    const auto& section = std::get<fem::ShellSection>(structure_.sections[cell.part]);
     maps = fem::shell_quadrilateral_part({X[0], X[1], X[2], X[3]}, static_cast<int>(i),
-                                         std::get<fem::ShellSection>(structure_.sections[cell.part]));
+                                         fem::on_curved_surface(section, cell.rise));
     at = {at[a], at[b], at[c]}, X = {X[a], X[b], X[c]};
   } else {
-    maps = structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.place));
+    maps = structure_.maps(cell.alone());
   }
   if (one_frame(at)) return nullptr;
   Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(X.size()));
@@ -327,8 +328,7 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   double stiffest = 0;
   for (const fem::Mesh::Cell& cell : mesh.cells)
     if (mesh::has_extent(cell.kind))
-      stiffest = std::max(
-          stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.place), 1, 0).diagonal().maxCoeff());
+      stiffest = std::max(stiffest, structure_.matrix(cell.alone(), 1, 0).diagonal().maxCoeff());
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     if (start_.contains(mesh.first_node + i)) continue;

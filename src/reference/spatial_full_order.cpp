@@ -69,7 +69,7 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem
   const auto at = [&](int i) { return structure.mesh.positions[cell.place[i]]; };
   const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
   const Eigen::MatrixXd own =  // of its corners, whomever they follow
-      cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.place), 0, 1) : M;
+      cell.follows() ? structure.matrix(cell.alone(), 0, 1) : M;
   const Eigen::MatrixXd T = cell.follows() ? fem::following(structure.mesh, cell) : Eigen::MatrixXd();
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.places().size()); ++i) {
     const double lacking = 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace();

@@ -44,6 +44,7 @@ struct Mesh {
     std::array<int, 2 * mesh::most_nodes> moved{};
     int moving = 0;                      ///< how many
     Nodes line = mesh::no_nodes<int>();  ///< of each node on a line hinge: where in `moved` its independent node is
+    double rise = 0;  ///< height of a curved surface over the flat shell element between its nodes (set_rises) [m]
     Cell() = default;
     Cell(CellKind k, int p, const Nodes& at) : kind(k), part(p), place(at), moving(mesh::node_count(k)) {
       std::copy(at.begin(), at.end(), moved.begin());
@@ -55,6 +56,12 @@ struct Mesh {
     std::span<const int> corners() const { return places().first(static_cast<std::size_t>(mesh::corner_count(kind))); }
     bool follows() const { return spins() || !std::equal(places().begin(), places().end(), moved.begin()); }
     bool spins() const { return line != mesh::no_nodes<int>(); }
+    /// The element where it is, moved by its own nodes.
+    Cell alone() const {
+      Cell cell(kind, part, place);
+      cell.rise = rise;
+      return cell;
+    }
   };
   /// An owned node that follows another one rigidly: local numbers.
   struct DependentNode {

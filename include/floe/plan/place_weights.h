@@ -20,8 +20,9 @@ struct PlaceMeasure {
 ///           (a quadrilateral: the mean of both divisions into two)
 ///   edge    every node is an end of element edges between nodes of the place (edges of shells, beams): halves of their
 ///           lengths l, and B theta = l^2 / 12 A (theta x s), s towards the other end: the displacement across an edge
-///           is cubic (Hermite, DKT; A = 1), in the plane of a shell quadratic (A = 3/2, the lumping of the OPT
-///           membrane). Interior edges of elements that belong to the place as a whole do not count
+///           is cubic (Hermite, DKT; A = 1), in the plane of a shell quadratic (A = alpha of its section there, the
+///           lumping of the OPT membrane: 3/2 on a flat surface). Interior edges of elements that belong to the place
+///           as a whole do not count
 ///   points  else: equal weights
 ///
 /// Hence sum w_i x_i is the centroid of the edge or area however its elements are graded, and even tension is exact.
@@ -30,7 +31,7 @@ struct PlaceMeasure {
 ///
 /// @param nodes    global, without repetition, the same on all ranks
 /// @param measure  receives what was found, if it is asked for
-/// @return       in their order, the same on all ranks. Collective. Source: Felippa 2003 (alpha = 3/2).
+/// @return       in their order, the same on all ranks. Collective. Source: Felippa 2003 (alpha).
 std::vector<reduction::WeightedNode> place_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes,
                                                    PlaceMeasure* measure = nullptr);
 
@@ -64,7 +65,7 @@ std::optional<Eigen::Vector3d> common_normal(const fem::Structure& structure, co
 
 /// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
 /// length or area, int N_i s. Not normalised; of either sign. Collective.
-std::vector<reduction::WeightedNode> shaped_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+std::vector<reduction::WeightedNode> shaped_weights(const fem::Structure& structure, const std::vector<PetscInt>& nodes,
                                                     PlaceMeasure::Of of, const std::vector<double>& shape);
 
 }  // namespace floe::plan

@@ -1,0 +1,63 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "spatial_structures.h"
+
+using namespace floe;
+using Eigen::Vector3d;
+using testing::Spread;
+
+namespace {
+
+fem::Mesh tube(int sides, generate::ShellCells cells, Spread spread) {
+  generate::MappedGrid grid;
+  grid.nu = sides, grid.nv = 3, grid.closed_u = true, grid.cells = cells;
+  grid.position = [](double u, double v) {
+    return Vector3d(2 * std::cos(2 * M_PI * u), 5 * v, -2 * std::sin(2 * M_PI * u));
+  };
+  const mesh::RawMesh raw = generate::shell_of(PETSC_COMM_WORLD, grid);
+  return fem::mesh_of(raw, testing::ranks_of(raw, spread));
+}
+
+/// Mean distance of the corners of a cell from its middle.
+double half_length(const fem::Mesh& mesh, const fem::Mesh::Cell& cell) {
+  Vector3d middle = Vector3d::Zero();
+  const auto n = static_cast<double>(cell.corners().size());
+  for (const int node : cell.corners()) middle += mesh.positions[node] / n;
+  double sum = 0;
+  for (const int node : cell.corners()) sum += (mesh.positions[node] - middle).norm() / n;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("elements of a tube rise by the angle between them and the surface, those of a folded one do not", "[fem]") {
+  const auto spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed, Spread::last);
+  const auto cells = GENERATE(generate::ShellCells::triangles, generate::ShellCells::quadrilaterals);
+  for (const int sides : {8, 9, 30}) {  // normals of neighbours 45, 40, 12 degrees apart
+    const fem::Mesh mesh = tube(sides, cells, spread);
+    for (const auto& cell : mesh.cells) {
+      const double slope = sides > 8 ? std::sin(M_PI / sides) : 0;
+      CHECK(cell.rise == Approx(half_length(mesh, cell) * slope / 2).epsilon(1e-12));
+      CHECK(cell.alone().rise == cell.rise);
+    }
+  }
+}
+
+TEST_CASE("flat plates in any position and boxes have no rise", "[fem]") {
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  generate::Plate floor{{100, -30, 7}, 2 * axes.col(0), axes.col(1), 4, 3}, wall = floor;
+  wall.b = 0.5 * axes.col(2);
+  const mesh::RawMesh raw = generate::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}});
+  for (const auto& cell : fem::mesh_of(raw, testing::ranks_of(raw, Spread::metis)).cells) CHECK(cell.rise == 0);
+}
+
+TEST_CASE("the section of an element on a curved surface keeps its bending and its membrane", "[fem]") {
+  const fem::ShellSection flat = fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}}, 0.02);
+  const fem::ShellSection curved = fem::on_curved_surface(flat, 0.03), same = fem::on_curved_surface(flat, 0);
+  CHECK((curved.A == flat.A && curved.bending == flat.bending && curved.coupling == flat.coupling));
+  CHECK(curved.higher_order == Approx(flat.higher_order / 10));  // 1 + (10 * 0.03 / 0.1)^2, at any offset
+  CHECK(curved.drilling == Approx(1.5 * std::pow(0.1, 1. / 12)));
+  CHECK((same.higher_order == flat.higher_order && same.drilling == 1.5));
+}
