@@ -60,7 +60,7 @@ std::vector<ShellSample> of_second_order(ShellNodes nodes, const ShellSection& s
 }  // namespace
 
 std::vector<ShellSample> shell_samples(const Structure& structure, const Mesh::Cell& cell) {
-  const auto& section = std::get<ShellSection>(structure.sections[cell.part]);
+  const ShellSection section = on_curved_surface(std::get<ShellSection>(structure.sections[cell.part]), cell.rise);
   std::vector<Eigen::Vector3d> x;
   for (const int node : cell.places()) x.push_back(structure.mesh.positions[node]);
   std::vector<ShellSample> samples;

@@ -3,11 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "floe/fem/structure.h"
+
 namespace floe::fem {
 namespace {
 
 using Eigen::Vector3d;
 using petsc::check;
+
+constexpr double folded = 0.13;  // sin^2 of half of 42 degrees
 
 bool is_flat_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind) && !mesh::is_quadratic(cell.kind); }
 
@@ -27,67 +31,47 @@ struct Facet {
   }
 };
 
-/// sum angle n n' of the elements at each node, of this rank and then of all: xx, xy, xz, yy, yz, zz. It does not know
-/// which way normals point.
-class Normals {
- public:
-  explicit Normals(const Mesh& mesh) {
-    check(VecCreateGhostBlock(mesh.comm, 6, 6 * mesh.owned_nodes, PETSC_DECIDE,
-                              static_cast<PetscInt>(mesh.foreign.size()), mesh.foreign.data(), sums_.out()));
-    check(VecGhostGetLocalForm(sums_, &local_));
-    check(VecSet(local_, 0));
-    add(mesh);
-    check(VecGhostUpdateBegin(sums_, ADD_VALUES, SCATTER_REVERSE));
-    check(VecGhostUpdateEnd(sums_, ADD_VALUES, SCATTER_REVERSE));
-    check(VecGhostUpdateBegin(sums_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecGhostUpdateEnd(sums_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecGetArrayRead(local_, &values_));
+/// sum angle n n' of this rank's elements at each local node: it does not know which way normals point.
+Eigen::VectorXd own_sums(const Mesh& mesh) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(mesh.positions.size()));
+  for (const Mesh::Cell& cell : mesh.cells) {
+    if (!is_flat_shell(cell)) continue;
+    const Facet facet(mesh, cell);
+    for (std::size_t i = 0; i < facet.corner.size(); ++i) {
+      const Vector3d& n = facet.normal[i];
+      double* sum = sums.data() + 6 * static_cast<Eigen::Index>(cell.corners()[i]);
+      for (int a = 0; a < 3; ++a)
+        for (int b = a; b < 3; ++b) *sum++ += facet.angle[i] * n[a] * n[b];
+    }
   }
-  ~Normals() {
-    VecRestoreArrayRead(local_, &values_);
-    VecGhostRestoreLocalForm(sums_, &local_);
-  }
-  Normals(const Normals&) = delete;
-  Normals& operator=(const Normals&) = delete;
+  return sums;
+}
 
-  /// Zero where the surface is folded.
-  Vector3d at(int node) const {
-    constexpr double folded = 0.13;  // sin^2 of half of 42 degrees
-    const PetscScalar* s = values_ + 6 * node;
+/// N at each local node, of either sign; zero where the surface is folded. Collective.
+std::vector<Vector3d> surface_normals(const Mesh& mesh) {
+  const Exchange exchange(mesh, 6);
+  petsc::VecHandle field;
+  check(VecCreateMPI(mesh.comm, 6 * mesh.owned_nodes, 6 * mesh.node_count, field.out()));
+  check(VecSet(field, 0));
+  exchange.add(own_sums(mesh), field);
+  const Eigen::VectorXd sums = exchange.gather(field);
+  std::vector<Vector3d> normals;
+  for (Eigen::Index at = 0; at < sums.size(); at += 6) {
+    const auto s = sums.segment<6>(at);
     Eigen::Matrix3d sum;
     sum << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
-    const Vector3d& of = eigen.eigenvalues();
-    return of[0] + of[1] < folded * sum.trace() ? Vector3d(eigen.eigenvectors().col(2)) : Vector3d::Zero();
+    const bool smooth = eigen.eigenvalues()[1] < folded * sum.trace();
+    normals.push_back(smooth ? Vector3d(eigen.eigenvectors().col(2)) : Vector3d::Zero());
   }
-
- private:
-  void add(const Mesh& mesh) {
-    PetscScalar* values = nullptr;
-    check(VecGetArray(local_, &values));
-    for (const Mesh::Cell& cell : mesh.cells) {
-      if (!is_flat_shell(cell)) continue;
-      const Facet facet(mesh, cell);
-      for (std::size_t i = 0; i < facet.corner.size(); ++i) {
-        const Vector3d& n = facet.normal[i];
-        PetscScalar* sum = values + 6 * cell.corners()[i];
-        for (int a = 0; a < 3; ++a)
-          for (int b = a; b < 3; ++b) *sum++ += facet.angle[i] * n[a] * n[b];
-      }
-    }
-    check(VecRestoreArray(local_, &values));
-  }
-
-  petsc::VecHandle sums_;
-  Vec local_ = nullptr;
-  const PetscScalar* values_ = nullptr;
-};
+  return normals;
+}
 
 }  // namespace
 
 void set_rises(Mesh& mesh) {
   constexpr double round_off = 1e-8;
-  const Normals normals(mesh);
+  const std::vector<Vector3d> normals = surface_normals(mesh);
   for (Mesh::Cell& cell : mesh.cells) {
     if (!is_flat_shell(cell)) continue;
     const Facet facet(mesh, cell);
@@ -96,8 +80,9 @@ void set_rises(Mesh& mesh) {
     for (const Vector3d& x : facet.corner) middle += x / count;
     cell.rise = 0;
     for (std::size_t i = 0; i < facet.corner.size(); ++i) {
-      const double slope = facet.normal[i].cross(normals.at(cell.corners()[i])).norm();
-      if (slope > round_off) cell.rise += (facet.corner[i] - middle).norm() * slope / 2 / count;
+      const double slope = facet.normal[i].cross(normals[cell.corners()[i]]).norm();
+      if (slope > round_off && slope * slope < folded)
+        cell.rise += (facet.corner[i] - middle).norm() * slope / 2 / count;
     }
   }
 }

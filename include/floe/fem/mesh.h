@@ -44,7 +44,7 @@ struct Mesh {
     std::array<int, 2 * mesh::most_nodes> moved{};
     int moving = 0;                      ///< how many
     Nodes line = mesh::no_nodes<int>();  ///< of each node on a line hinge: where in `moved` its independent node is
-    double rise = 0;  ///< height of a curved surface over the flat shell element between its nodes (set_rises) [m]
+    double rise = 0;  ///< of a curved surface over a flat shell element of three or four nodes (set_rises) [m]
     Cell() = default;
     Cell(CellKind k, int p, const Nodes& at) : kind(k), part(p), place(at), moving(mesh::node_count(k)) {
       std::copy(at.begin(), at.end(), moved.begin());

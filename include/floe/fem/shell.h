@@ -38,11 +38,11 @@ struct SurfacePoint {
 ///   e = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y),   L q = mean membrane strain + C corner curvature,   C = A^-1 B
 ///   second_order:  e = L q + 1/2 (|u_x|^2, |u_y|^2, 2 u_x.u_y),  u = (u, v, w)
 ///
-/// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
-/// (lumping with alpha = 3/2); theta are the drilling rotations less the rotation of that triangle. e is one point and
-/// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
-/// follows a developable surface, so nothing locks. Drilling rotations, in e and against the drilling stiffness, are
-/// relative to that plane to second order with both kinds of strains,
+/// The mean strain is that of the constant-strain triangle whose nodes move by u_i - alpha/2 theta_i z x (x_i -
+/// centroid) (lumping, ShellSection::drilling); theta are the drilling rotations less the rotation of that triangle. e
+/// is one point and its slopes are those of the plane through the displaced nodes: the membrane can balance them on any
+/// mesh that follows a developable surface, so nothing locks. Drilling rotations, in e and against the drilling
+/// stiffness, are relative to that plane to second order with both kinds of strains,
 ///
 ///   theta_n - (v_x - u_y) / 2 - (w_x theta_x + w_y theta_y) / 2   of log(R'exp(theta)), R the plane's rotation,
 ///

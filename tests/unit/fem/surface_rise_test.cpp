@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "differences.h"
+#include "floe/fem/shell_samples.h"
 #include "spatial_structures.h"
 
 using namespace floe;
@@ -45,12 +47,39 @@ TEST_CASE("elements of a tube rise by the angle between them and the surface, th
 }
 
 TEST_CASE("flat plates in any position and boxes have no rise", "[fem]") {
-  const Eigen::Matrix3d axes =
-      Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   generate::Plate floor{{100, -30, 7}, 2 * axes.col(0), axes.col(1), 4, 3}, wall = floor;
   wall.b = 0.5 * axes.col(2);
   const mesh::RawMesh raw = generate::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}});
   for (const auto& cell : fem::mesh_of(raw, testing::ranks_of(raw, Spread::metis)).cells) CHECK(cell.rise == 0);
+}
+
+TEST_CASE("a flat web whose corner ends on a plate is flat", "[fem]") {
+  generate::Plate plate{{-1, -1, 0}, Vector3d(2, 0, 0), Vector3d(0, 2, 0), 2, 2};
+  generate::Plate web{{0, 0, 0}, Vector3d(1, 0, 0), Vector3d(1, 0, 1), 1, 1};  // 45 degrees at the plate's middle
+  const mesh::RawMesh raw = generate::merged(generate::prefixed(generate::plate(PETSC_COMM_WORLD, plate), "skin."),
+                                             generate::prefixed(generate::plate(PETSC_COMM_WORLD, web), "web."),
+                                             {{"skin.plate", "web.plate"}}, 1e-9);
+  CHECK(raw.cell_count == 10);
+  for (const auto& cell : fem::mesh_of(raw, testing::ranks_of(raw, Spread::metis)).cells) CHECK(cell.rise == 0);
+}
+
+// Otherwise the stress of a bent surface would be that of drilling rotations, which the element does not have.
+TEST_CASE("stresses of elements on curved surfaces are those of their stiffness", "[fem]") {
+  const auto cells = GENERATE(generate::ShellCells::triangles, generate::ShellCells::quadrilaterals);
+  const fem::Structure structure(tube(12, cells, Spread::metis),
+                                 {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}})},
+                                 fem::MembraneStrain::averaged);
+  for (const auto& cell : structure.mesh.cells) {
+    CHECK(cell.rise > 0.03);
+    const fem::ElementMaps maps = structure.maps(cell);
+    const std::vector<fem::ShellSample> samples = fem::shell_samples(structure, cell);
+    Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(3, 6 * static_cast<Eigen::Index>(cell.corners().size()));
+    for (int d = 0; d < 6; ++d)
+      for (std::size_t i = 0; i < samples[0].corners.size(); ++i)
+        strain.col(6 * samples[0].corners[i] + d) = samples[0].L.topRows<3>().col(6 * static_cast<int>(i) + d);
+    CHECK(testing::relative_error(strain, maps.membrane[0].L) < 1e-12);
+  }
 }
 
 TEST_CASE("the section of an element on a curved surface keeps its bending and its membrane", "[fem]") {
