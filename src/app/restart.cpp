@@ -54,6 +54,7 @@ void restart_one(const std::string& path, const std::string& scene_file, const s
   petsc::agree(
       comm, [&] { scene = scene::read_scene(scene_file.empty() ? run.at("scene").get<std::string>() : scene_file); });
   petsc::agree(comm, [&] { check_identity(run, identity_of(scene, of_run, comm), path); });
+  output::remove_drafts(comm, folder);  // also of a finished run: it may have been killed at its last file
   if (const std::optional<double> ended = ended_at(folder, until.value_or(scene.motion.end), comm)) {
     if (until && *until < *ended)
       throw InputError(
@@ -61,7 +62,6 @@ void restart_one(const std::string& path, const std::string& scene_file, const s
     if (petsc::first_rank(comm)) fmt::print("{} is finished, at t = {} s: nothing is left to simulate\n", path, *ended);
     return;
   }
-  output::remove_drafts(comm, folder);
   plan.until = until;
   if (const double t = plan.from->words.at("t"); until && *until < t)
     throw InputError(fmt::format("--until {}: the checkpoint is at t = {}; expected a later time", *until, t));

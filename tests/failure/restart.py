@@ -231,8 +231,12 @@ def finished(floe, folder):
     run = lambda *words: subprocess.run([str(floe), "run", *words], cwd=folder, capture_output=True, text=True, timeout=TIME_LIMIT)
     assert run("scene.yaml", "-o", "out", "--force", "--checkpoint", "20").returncode == 0
     before = [(folder / "out" / name).read_bytes() for name in ("summary.json", "result.h5", "probes.csv")]
+    drafts = [folder / "out" / f".{name}.partial" for name in ("summary.json", "result.h5")]  # killed after its motion
+    for draft in drafts:
+        draft.write_text("{")
     done = run("--restart", "out")
     assert done.returncode == 0 and "nothing is left to simulate" in done.stdout, done.stdout + done.stderr
+    assert not any(draft.exists() for draft in drafts), "drafts of a finished run are left"
     end = json.loads(before[0])["integration"]["reached"]
     done = run("--restart", "out", "--until", str(end / 2))
     assert done.returncode == 2 and "expected a later time" in done.stderr, done.stderr
