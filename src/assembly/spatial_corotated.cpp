@@ -25,9 +25,10 @@ namespace {
 /// A node may move a place by its rotation alone: in the middle of an edge under an odd load.
 bool has_weight(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
 
-/// a of an averaging weight's arm, theta x a. In an edge of a shell, arm = c (1 + t t'/2) (theta x s), the greater one,
-/// 3/2 c s, which belongs to displacements in the plane, so that even tension is exact: c s (5/4 from the skew part of
-/// the matrix, 1/4 from the symmetric one).
+/// a of an averaging weight's arm, theta x a. In an edge of a shell, arm = c (1 + (alpha - 1) t t') (theta x s), the
+/// greater one: where alpha > 1 the one of displacements in the plane, alpha c s, so that even tension is exact
+/// ((1 + alpha) / 2 from the skew part of the matrix, (alpha - 1) / 2 from the symmetric one). On surfaces that rise by
+/// more than the thickness alpha < 1, and a is c s.
 Vector3d arm_of(const AveragingWeight& weight) {
   const Eigen::Matrix3d twice = weight.arm.transpose() - weight.arm;
   const Vector3d a = Vector3d(twice(2, 1), twice(0, 2), twice(1, 0)) / 2;

@@ -53,8 +53,8 @@ ElementMaps maps_of(const Corners& at, const SpatialBeam& beam) {
 }
 ElementMaps maps_of(const Corners& at, const ShellSection& section) {
   if (at.quadratic()) return quadratic_shell(at.all(), section);
-  const ShellSection flat = on_curved_surface(section, at.cell.rise);
-  return at.three() ? shell_triangle(at.triangle(), flat) : shell_quadrilateral(at.quadrilateral(), flat);
+  const ShellSection scaled = on_curved_surface(section, at.cell.rise);
+  return at.three() ? shell_triangle(at.triangle(), scaled) : shell_quadrilateral(at.quadrilateral(), scaled);
 }
 ElementMaps maps_of(const Corners& at, const PointMass& point) {
   return point_mass(at[0], point.mass, point.inertia, point.offset);
@@ -80,10 +80,10 @@ Eigen::MatrixXd matrix_of(const Corners& at, const SpatialBeam& beam, double k, 
 }
 Eigen::MatrixXd matrix_of(const Corners& at, const ShellSection& section, double k, double m) {
   const auto sum = [&](auto A, auto stiffness, auto mass, const auto& nodes) {
-    const ShellSection flat = on_curved_surface(section, at.cell.rise);
+    const ShellSection scaled = on_curved_surface(section, at.cell.rise);
     A.setZero();
-    if (k != 0) A += k * stiffness(nodes, flat);
-    if (m != 0) A += m * mass(nodes, flat);
+    if (k != 0) A += k * stiffness(nodes, scaled);
+    if (m != 0) A += m * mass(nodes, scaled);
     return Eigen::MatrixXd(A);
   };
   if (at.quadratic()) return sums_of(quadratic_shell(at.all(), section), k, m);

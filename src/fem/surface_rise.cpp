@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using petsc::check;
 
-constexpr double folded = 0.13;  // sin^2 of half of 42 degrees
+const double folded = std::sin(21 * M_PI / 180);
 
 bool is_flat_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind) && !mesh::is_quadratic(cell.kind); }
 
@@ -31,39 +31,51 @@ struct Facet {
   }
 };
 
-/// sum angle n n' of this rank's elements at each local node: it does not know which way normals point.
-Eigen::VectorXd own_sums(const Mesh& mesh) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(mesh.positions.size()));
+/// Calls with the local node, the element's normal there and its angle.
+template <class Act>
+void each_corner(const Mesh& mesh, Act&& act) {
   for (const Mesh::Cell& cell : mesh.cells) {
     if (!is_flat_shell(cell)) continue;
     const Facet facet(mesh, cell);
-    for (std::size_t i = 0; i < facet.corner.size(); ++i) {
-      const Vector3d& n = facet.normal[i];
-      double* sum = sums.data() + 6 * static_cast<Eigen::Index>(cell.corners()[i]);
-      for (int a = 0; a < 3; ++a)
-        for (int b = a; b < 3; ++b) *sum++ += facet.angle[i] * n[a] * n[b];
-    }
+    for (std::size_t i = 0; i < facet.corner.size(); ++i)
+      act(static_cast<Eigen::Index>(cell.corners()[i]), facet.normal[i], facet.angle[i]);
   }
-  return sums;
 }
 
-/// N at each local node, of either sign; zero where the surface is folded. Collective.
-std::vector<Vector3d> surface_normals(const Mesh& mesh) {
-  const Exchange exchange(mesh, 6);
+/// Over all ranks, of values at this rank's local nodes. Collective.
+Eigen::VectorXd summed(const Mesh& mesh, const Eigen::VectorXd& own, int dofs) {
+  const Exchange exchange(mesh, dofs);
   petsc::VecHandle field;
-  check(VecCreateMPI(mesh.comm, 6 * mesh.owned_nodes, 6 * mesh.node_count, field.out()));
+  check(VecCreateMPI(mesh.comm, dofs * mesh.owned_nodes, dofs * mesh.node_count, field.out()));
   check(VecSet(field, 0));
-  exchange.add(own_sums(mesh), field);
-  const Eigen::VectorXd sums = exchange.gather(field);
+  exchange.add(own, field);
+  return exchange.gather(field);
+}
+
+/// N at each local node, of either sign: the axis of greatest sum angle (n.N)^2. Zero where an element is folded from
+/// it. Collective.
+std::vector<Vector3d> surface_normals(const Mesh& mesh) {
+  const auto nodes = static_cast<Eigen::Index>(mesh.positions.size());
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(6 * nodes), folds = Eigen::VectorXd::Zero(nodes);
+  each_corner(mesh, [&](Eigen::Index node, const Vector3d& n, double angle) {
+    double* sum = squares.data() + 6 * node;
+    for (int a = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) *sum++ += angle * n[a] * n[b];
+  });
+  squares = summed(mesh, squares, 6);
   std::vector<Vector3d> normals;
-  for (Eigen::Index at = 0; at < sums.size(); at += 6) {
-    const auto s = sums.segment<6>(at);
+  for (Eigen::Index node = 0; node < nodes; ++node) {
+    const auto s = squares.segment<6>(6 * node);
     Eigen::Matrix3d sum;
     sum << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
-    const bool smooth = eigen.eigenvalues()[1] < folded * sum.trace();
-    normals.push_back(smooth ? Vector3d(eigen.eigenvectors().col(2)) : Vector3d::Zero());
+    normals.emplace_back(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2));
   }
+  each_corner(mesh, [&](Eigen::Index node, const Vector3d& n, double) {
+    if (n.cross(normals[node]).norm() >= folded) folds[node] += 1;
+  });
+  folds = summed(mesh, folds, 1);
+  for (Eigen::Index node = 0; node < nodes; ++node)
+    if (folds[node] > 0) normals[node].setZero();
   return normals;
 }
 
@@ -78,11 +90,9 @@ void set_rises(Mesh& mesh) {
     const auto count = static_cast<double>(facet.corner.size());
     Vector3d middle = Vector3d::Zero();
     for (const Vector3d& x : facet.corner) middle += x / count;
-    cell.rise = 0;
     for (std::size_t i = 0; i < facet.corner.size(); ++i) {
       const double slope = facet.normal[i].cross(normals[cell.corners()[i]]).norm();
-      if (slope > round_off && slope * slope < folded)
-        cell.rise += (facet.corner[i] - middle).norm() * slope / 2 / count;
+      if (slope > round_off) cell.rise += (facet.corner[i] - middle).norm() * slope / 2 / count;
     }
   }
 }

@@ -8,10 +8,11 @@ namespace floe::fem {
 ///   s = mean over the corners of |r| |n x N| / 2
 ///
 /// r from the element's middle, n the element's normal at the corner (of the two edges: warped quadrilaterals follow
-/// the surface), N that of the surface there, the mean of the elements at the node by their angles. On a square of a
-/// sphere s is its height over the element; on a cylinder of curvature k, elements h by l, about k h l / 8. Corners
-/// where the surface is folded or branches have none: folds of 42 degrees or more between two halves, the edge of a web
-/// on a skin. At free edges, and where a mesh is cut into pieces, N is that of one side. Collective.
+/// the surface), N that of the surface there, the mean of the elements at the node by their angles. For squares of side
+/// h on a sphere of curvature k it is their height k h^2 / 4, for rectangles h by l on a cylinder k h (h^2 +
+/// l^2)^(1/2) / 8. Corners where an element is 21 degrees or more from N have none: there the surface is folded, by 42
+/// degrees between equal halves, or branches. At free edges, at cuts into pieces and at seams of linked nodes, N is
+/// that of one side. Collective. The cells' rises must be zero before.
 void set_rises(Mesh& mesh);
 
 }  // namespace floe::fem

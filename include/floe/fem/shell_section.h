@@ -80,11 +80,11 @@ ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& 
 ///   eta beta_0,   3/2 eta^(1/12) for alpha,   eta = 1 / (1 + (10 s / t)^2),   t^2 = 12 tr D* / tr A
 ///
 /// Where the surface bends without stretching, its nodes rotate about axes in it, which are not in the planes of the
-/// elements: their corners drill by rotations that differ by kappa h, times the slope 4 s / h. By beta_0 that costs
-/// (s / t)^2 times the energy of bending: elements lock. With eta a few hundredths remain at every thickness. alpha
+/// elements: drilling rotations of their corners differ by kappa h, times the slope 4 s / h. By beta_0 that costs
+/// (s / t)^2 times the energy of bending: elements lock. With eta at most about a hundredth of it remains. alpha
 /// follows, or bending in the plane of a strip with one element across would be half as stiff: with s up to 3 t it has
-/// 0.65 to 1.02 of its deflection, with two across 0.89 to 1.
-/// Flat surfaces and thick ones keep beta_0 and 3/2.
+/// 0.65 to 1.02 of its deflection, with two across 0.89 to 1. Flat elements keep beta_0 and 3/2, and the smaller s / t
+/// is, the less they change.
 ShellSection on_curved_surface(ShellSection section, double rise);
 
 /// Plane-stress stiffness Q of a material in its own axes, (1, 2, 12) [Pa].

@@ -55,8 +55,8 @@ double free_end(Strains strains, double length, int n, int m, double deflection)
 
 enum class End { rigid_first_order, rigid_second_order, diaphragm };
 
-/// Motion of the middle of the end of a tube of ten sides: its edge follows that node rigidly, or a thick plate of
-/// shells, all of whose nodes are free, holds it.
+/// Motion of the middle of the end of a square tube, 10 sides long: its edge follows that node rigidly, or a thick
+/// plate of shells, all of whose nodes are free, holds it.
 VectorXd capped_end(End end, const VectorXd& load) {
   constexpr int n = 20, m = 2, ring = 4 * m, first = n * ring;
   testing::Plate p = tube(10, n, m);
@@ -140,7 +140,7 @@ double lag(double gamma) {
 
 // Reference: CalculiX 2.20, NLGEOM, S8R, 20 x 4 (4 %) and 20 x 2 (10 %) elements a side, root clamped, the force shared
 // evenly along the edge of the end: 0.041562 and 0.103957.
-TEST_CASE("second order: a square tube of ten sides bends as CalculiX has it, by 4 % and 10 % of its length",
+TEST_CASE("second order: a square tube 10 sides long bends as CalculiX has it, by 4 % and 10 % of its length",
           "[long]") {
   const double four = free_end(Strains::second_order, 10, 40, 4, 0.04),
                ten = free_end(Strains::second_order, 10, 40, 4, 0.1);

@@ -105,3 +105,23 @@ TEST_CASE("weights of places: edges of flat and curved shells rotate as the near
   CHECK(rotation(none, drilling).norm() <
         (camber == 0 ? 1e-14 : 0.02));  // h^2 / 12 over the inertia of the nodes; their mean: 1
 }
+
+// Else even tension at the edge would bend the elements in their planes.
+TEST_CASE("weights of places: edges of curved shells have the alpha of their elements", "[plan]") {
+  const double thickness = GENERATE(0.005, 0.05, 50.);
+  generate::MappedGrid grid;
+  grid.nu = 6, grid.nv = 2, grid.cells = generate::ShellCells::quadrilaterals;
+  grid.position = [](double u, double v) { return Eigen::Vector3d(std::cos(M_PI / 2 * u), std::sin(M_PI / 2 * u), v); };
+  const mesh::RawMesh raw = generate::shell_of(PETSC_COMM_WORLD, grid);
+  const fem::Structure structure(fem::mesh_of(raw, mesh::partition(raw)),
+                                 {fem::shell_section({{fem::isotropic(7e10, 0.3, 2700), thickness}})},
+                                 fem::MembraneStrain::averaged);
+  std::vector<PetscInt> nodes;
+  for (int i = 0; i <= 6; ++i) nodes.push_back(fem::nearest_node(structure.mesh, grid.position(i / 6., 0)).node);
+  const Eigen::Matrix3d arm = plan::place_weights(structure, nodes)[0].arm;  // of one edge
+  const Eigen::Vector3d s = grid.position(1 / 6., 0) - grid.position(0, 0), t(0, 0, 1), n = s.cross(t).normalized();
+  const double rise = std::sin(M_PI / 24) / 4 * std::hypot(s.norm(), 0.5) / 2;  // no other side: half the corners
+  const double alpha = fem::on_curved_surface(std::get<fem::ShellSection>(structure.sections[0]), rise).drilling;
+  CHECK(-t.dot(arm * n) / n.dot(arm * t) == Approx(alpha).epsilon(1e-10));
+  CHECK((thickness < 1 ? alpha < 1.4 : alpha > 1.499));
+}
