@@ -21,7 +21,7 @@ demo: program
 	@bash makefiles/demo.sh $(BUILD)
 
 check: build
-	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$(nproc)" --output-on-failure
+	@jobs=$$(nproc); source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$jobs" --output-on-failure  # nproc counts OMP_NUM_THREADS
 
 # Pictures, reports and files for ParaView as VTK and a browser see them, which make check skips where they are missing.
 check-look: build

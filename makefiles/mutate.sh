@@ -6,9 +6,10 @@
 # FRESH=1: begins anew with the sources as they are now. JOBS.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+jobs=${JOBS:-$(nproc)}
 source makefiles/mpi_environment.sh
 set -f  # patterns are for the program
-arguments=(--count "${COUNT:-20}" --seed "${SEED:-1}" --jobs "${JOBS:-$(nproc)}" --tests "${TESTS:-}")
+arguments=(--count "${COUNT:-20}" --seed "${SEED:-1}" --jobs "$jobs" --tests "${TESTS:-}")
 [ -z "${ROOM:-}" ] || arguments+=(--room ${ROOM})
 [ -z "${FILES:-}" ] || arguments+=(--files ${FILES})
 [ -z "${RETRY:-}" ] || arguments+=(--retry)
