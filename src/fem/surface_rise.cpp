@@ -1,45 +1,31 @@
 #include "surface_rise.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "floe/fem/structure.h"
+#include "floe/mesh/facet.h"
 
 namespace floe::fem {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using petsc::check;
 
-const double folded = std::sin(21 * M_PI / 180);
-
 bool is_flat_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind) && !mesh::is_quadratic(cell.kind); }
 
-/// An element at its corners: their places, its unit normals there (zero where an edge has no length) and its angles.
-struct Facet {
-  std::vector<Vector3d> corner, normal;
-  std::vector<double> angle;
+mesh::FacetCorner at_corner(const Mesh& mesh, const Mesh::Cell& cell, std::size_t i) {
+  const auto nodes = cell.corners();
+  const std::size_t n = nodes.size();
+  return {mesh.positions[nodes[(i + n - 1) % n]], mesh.positions[nodes[i]], mesh.positions[nodes[(i + 1) % n]]};
+}
 
-  Facet(const Mesh& mesh, const Mesh::Cell& cell) {
-    for (const int node : cell.corners()) corner.push_back(mesh.positions[node]);
-    for (std::size_t i = 0, n = corner.size(); i < n; ++i) {
-      const Vector3d next = corner[(i + 1) % n] - corner[i], previous = corner[(i + n - 1) % n] - corner[i];
-      const Vector3d across = next.cross(previous);
-      normal.push_back(across.stableNormalized());
-      angle.push_back(std::atan2(across.norm(), next.dot(previous)));
-    }
-  }
-};
-
-/// Calls with the local node, the element's normal there and its angle.
+/// Calls with the local node and the element there.
 template <class Act>
 void each_corner(const Mesh& mesh, Act&& act) {
-  for (const Mesh::Cell& cell : mesh.cells) {
-    if (!is_flat_shell(cell)) continue;
-    const Facet facet(mesh, cell);
-    for (std::size_t i = 0; i < facet.corner.size(); ++i)
-      act(static_cast<Eigen::Index>(cell.corners()[i]), facet.normal[i], facet.angle[i]);
-  }
+  for (const Mesh::Cell& cell : mesh.cells)
+    for (std::size_t i = 0; is_flat_shell(cell) && i < cell.corners().size(); ++i)
+      act(static_cast<Eigen::Index>(cell.corners()[i]), at_corner(mesh, cell, i));
 }
 
 /// Over all ranks, of values at this rank's local nodes. Collective.
@@ -52,26 +38,19 @@ Eigen::VectorXd summed(const Mesh& mesh, const Eigen::VectorXd& own, int dofs) {
   return exchange.gather(field);
 }
 
-/// N at each local node, of either sign: the axis of greatest sum angle (n.N)^2. Zero where an element is folded from
-/// it. Collective.
+/// N at each local node; zero where an element is folded from it. Collective.
 std::vector<Vector3d> surface_normals(const Mesh& mesh) {
   const auto nodes = static_cast<Eigen::Index>(mesh.positions.size());
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(6 * nodes), folds = Eigen::VectorXd::Zero(nodes);
-  each_corner(mesh, [&](Eigen::Index node, const Vector3d& n, double angle) {
-    double* sum = squares.data() + 6 * node;
-    for (int a = 0; a < 3; ++a)
-      for (int b = a; b < 3; ++b) *sum++ += angle * n[a] * n[b];
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(9 * nodes), folds = Eigen::VectorXd::Zero(nodes);
+  each_corner(mesh, [&](Eigen::Index node, const mesh::FacetCorner& corner) {
+    Eigen::Map<Matrix3d>(sums.data() + 9 * node) += corner.weighted();
   });
-  squares = summed(mesh, squares, 6);
+  sums = summed(mesh, sums, 9);
   std::vector<Vector3d> normals;
-  for (Eigen::Index node = 0; node < nodes; ++node) {
-    const auto s = squares.segment<6>(6 * node);
-    Eigen::Matrix3d sum;
-    sum << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-    normals.emplace_back(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2));
-  }
-  each_corner(mesh, [&](Eigen::Index node, const Vector3d& n, double) {
-    if (n.cross(normals[node]).norm() >= folded) folds[node] += 1;
+  for (Eigen::Index node = 0; node < nodes; ++node)
+    normals.push_back(mesh::surface_normal(Eigen::Map<const Matrix3d>(sums.data() + 9 * node)));
+  each_corner(mesh, [&](Eigen::Index node, const mesh::FacetCorner& corner) {
+    if (corner.normal.cross(normals[node]).norm() >= std::sin(mesh::fold)) folds[node] += 1;
   });
   folds = summed(mesh, folds, 1);
   for (Eigen::Index node = 0; node < nodes; ++node)
@@ -86,13 +65,13 @@ void set_rises(Mesh& mesh) {
   const std::vector<Vector3d> normals = surface_normals(mesh);
   for (Mesh::Cell& cell : mesh.cells) {
     if (!is_flat_shell(cell)) continue;
-    const Facet facet(mesh, cell);
-    const auto count = static_cast<double>(facet.corner.size());
+    const auto nodes = cell.corners();
+    const auto count = static_cast<double>(nodes.size());
     Vector3d middle = Vector3d::Zero();
-    for (const Vector3d& x : facet.corner) middle += x / count;
-    for (std::size_t i = 0; i < facet.corner.size(); ++i) {
-      const double slope = facet.normal[i].cross(normals[cell.corners()[i]]).norm();
-      if (slope > round_off) cell.rise += (facet.corner[i] - middle).norm() * slope / 2 / count;
+    for (const int node : nodes) middle += mesh.positions[node] / count;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double slope = at_corner(mesh, cell, i).normal.cross(normals[nodes[i]]).norm();
+      if (slope > round_off) cell.rise += (mesh.positions[nodes[i]] - middle).norm() * slope / 2 / count;
     }
   }
 }

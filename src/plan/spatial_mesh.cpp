@@ -10,9 +10,9 @@
 #include "deck_sections.h"
 #include "floe/fem/default_strains.h"
 #include "floe/generate/generate.h"
+#include "floe/generate/halved.h"
 #include "floe/math/nearest.h"
 #include "floe/mesh/gmsh.h"
-#include "floe/mesh/halved.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
 #include "floe/mesh/nastran.h"
@@ -68,12 +68,12 @@ mesh::DeckRequest request_of(const Body& body) {
 
 /// Beams with released ends remain whole, as halves would be released, too; rods are divided where a shell holds the
 /// node between their halves.
-mesh::Halved division_of(const fem::Section& section) {
+generate::Halved division_of(const fem::Section& section) {
   const auto* beam = std::get_if<fem::SpatialBeam>(&section);
-  if (!beam || beam->releases.none()) return mesh::Halved::all;
+  if (!beam || beam->releases.none()) return generate::Halved::all;
   const bool rod = beam->releases[4] && beam->releases[5] && beam->releases[10] && beam->releases[11] &&
                    !beam->releases[0] && !beam->releases[6];
-  return rod ? mesh::Halved::along_shells : mesh::Halved::none;
+  return rod ? generate::Halved::along_shells : generate::Halved::none;
 }
 
 /// Elements halved as often as the scene wants. @throws InputError  too many. Collective.
@@ -85,12 +85,12 @@ void refine(const Body& body, Source& source) {
     throw InputError(
         fmt::format("{}.file.refine: is {}, which makes up to {:.3g} elements of {}; expected at most {:g}",
                     body.mesh.where.text(), times, elements, source.mesh.cell_count, most));
-  std::vector<mesh::Halved> parts(source.mesh.parts.size(), mesh::Halved::all);
+  std::vector<generate::Halved> parts(source.mesh.parts.size(), generate::Halved::all);
   for (const auto& [part, section] : source.parts) parts[part] = division_of(section);
   mesh::RawMesh whole = on_every_rank(source.mesh);
-  for (int i = 0; i < times; ++i) whole = mesh::halved(whole, source.dependent_nodes, parts);
+  for (int i = 0; i < times; ++i) whole = generate::halved(whole, source.dependent_nodes, parts);
   const auto undivided = std::count_if(whole.cells.begin(), whole.cells.end(), [&](const mesh::Cell& cell) {
-    return cell.kind == mesh::CellKind::line && parts[cell.part] != mesh::Halved::all &&
+    return cell.kind == mesh::CellKind::line && parts[cell.part] != generate::Halved::all &&
            std::max(cell.nodes[0], cell.nodes[1]) < source.mesh.node_count;
   });
   if (undivided > 0)

@@ -41,8 +41,8 @@ const SchemaSection file_section{
          Type::integer,
          "",
          "0",
-         "how many times all elements are halved, on their own edges and surfaces: 1 for elements half as long, four "
-         "times as many shells",
+         "how many times all elements are halved, on the curves and surfaces that they form: 1 for elements half as "
+         "long, four times as many shells",
          {0, 8}},
     }};
 

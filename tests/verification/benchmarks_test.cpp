@@ -153,9 +153,9 @@ probes: {crown: {at: {body: cylinder, node: [0, 0, 300]}, quantity: displacement
 namespace {
 
 /// A quarter of a hemisphere with a hole of 18 degrees, R = 10, under two pairs of forces.
-std::string hemisphere(const Deck& deck, double force) {
+std::string hemisphere(const Deck& deck, double force, int refine = 0) {
   return fill(R"yaml(
-bodies: {shell: {mesh: {file: {path: $path}}}}
+bodies: {shell: {mesh: {file: {path: $path, refine: $refine}}}}
 joints:
   a: {type: support, between: [ground, shell.left], hold: [y, rx, rz]}
   b: {type: support, between: [ground, shell.right], hold: [x, ry, rz]}
@@ -167,7 +167,7 @@ probes:
   out: {at: {body: shell, node: [10, 0, 0]}, quantity: displacement}
   in: {at: {body: shell, node: [0, 10, 0]}, quantity: displacement}
 )yaml",
-              {{"path", deck.path()}, {"F", number(force)}});
+              {{"path", deck.path()}, {"refine", std::to_string(refine)}, {"F", number(force)}});
 }
 
 std::string hemisphere_deck(const char* type, int n) {
@@ -188,6 +188,17 @@ TEST_CASE("hemisphere with a hole of 18 degrees, small deflections") {
   CAPTURE(type, n, static_cast<int>(formulation));
   const Deck deck(hemisphere_deck(type, n));
   CHECK(100 * rest(hemisphere(deck, 0.02), formulation)["out.x"].back() == Approx(0.094).epsilon(tolerance));
+}
+
+// Halved elements are on the sphere: the polyhedron has 0.78 (triangles, once), 0.76 (twice) of the deflection.
+TEST_CASE("a refined hemisphere with a hole has the deflection of a finer one") {
+  const auto [type, n, refine] = GENERATE(std::tuple("S3", 8, 1), std::tuple("S4", 8, 1), std::tuple("S3", 4, 2));
+  CAPTURE(type, refine);
+  const auto deflection = [&](int elements, int times) {
+    const Deck deck(hemisphere_deck(type, elements));
+    return rest(hemisphere(deck, 0.02, times), Formulation::lffr)["out.x"].back();
+  };
+  CHECK(deflection(n, refine) == Approx(deflection(16, 0)).epsilon(n == 8 ? 5e-4 : 5e-3));
 }
 
 // Sze, Liu and Lo 2004, Finite Elem. Anal. Des. 40, 1551-1569, 3.5: R = 10, h = 0.04, E = 6.825e7, nu = 0.3, two pairs

@@ -1,4 +1,4 @@
-#include "floe/mesh/halved.h"
+#include "floe/generate/halved.h"
 
 #include "generated.h"
 
@@ -26,7 +26,7 @@ RawMesh elements(CellKind kind, const std::vector<Vector3d>& positions,
   return raw;
 }
 
-RawMesh halved(const RawMesh& raw, std::vector<DependentNode> links = {}) { return mesh::halved(raw, links); }
+RawMesh halved(const RawMesh& raw, std::vector<DependentNode> links = {}) { return generate::halved(raw, links); }
 
 using Points = std::set<std::array<long, 3>>;  // in 1e-9
 std::array<long, 3> rounded(const Vector3d& x) {
@@ -166,7 +166,8 @@ TEST_CASE("masses, springs and undivided parts remain, and rigid regions receive
   raw.cells.push_back(mass), raw.cells.push_back(spring);
   raw.cell_labels = {1, 2, 3, 4, 5}, raw.cell_count = 5;
   std::vector<DependentNode> links{{1, 4}, {2, 4}};
-  const RawMesh fine = mesh::halved(raw, links, {mesh::Halved::all, mesh::Halved::none, mesh::Halved::all});
+  const RawMesh fine =
+      generate::halved(raw, links, {generate::Halved::all, generate::Halved::none, generate::Halved::all});
   REQUIRE(fine.cell_count == 7);
   CHECK(fine.cell_labels == std::vector<long long>{1, 1, 2, 2, 3, 4, 5});
   CHECK(fine.cells[4].nodes == raw.cells[2].nodes);

@@ -1,10 +1,12 @@
-#include "floe/mesh/halved.h"
+#include "floe/generate/halved.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-namespace floe::mesh {
+#include "curved_edges.h"
+
+namespace floe::generate {
 
 namespace {
 
@@ -52,7 +54,7 @@ DependentNode freer(const DependentNode& a, const DependentNode& b) {
 
 class Halving {
  public:
-  Halving(const RawMesh& whole, const std::vector<Halved>& parts) : whole_(whole), parts_(parts) {
+  Halving(const RawMesh& whole, const std::vector<Halved>& parts) : whole_(whole), parts_(parts), curves_(whole) {
     fine_ = whole;
     fine_.cells.clear(), fine_.cell_labels.clear();
     find_edges();
@@ -146,6 +148,14 @@ class Halving {
     return found->second;
   }
 
+  /// Of an edge: on the surface that its shells form.
+  PetscInt middle(PetscInt a, PetscInt b) {
+    const Edge own = edge(a, b);
+    if (const auto known = known_.find(own); known != known_.end()) return known->second;
+    const Vector3d rise = curves_.offset(own[0], own[1]);
+    return between(a, b, (x(a) + x(b)) / 2 + rise, own);
+  }
+
   void emit(std::size_t parent, CellKind kind, std::initializer_list<PetscInt> nodes) {
     Cell cell{kind, no_nodes<PetscInt>(), whole_.cells[parent].part};
     std::copy(nodes.begin(), nodes.end(), cell.nodes.begin());
@@ -163,7 +173,7 @@ class Halving {
     for (int i = 0; i < edge_count(cell.kind); ++i) {
       const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % corner_count(cell.kind)];
       const Edge own = edge(a, b);
-      const PetscInt m = on.middle[i] = between(a, b, (x(a) + x(b)) / 2, own);
+      const PetscInt m = on.middle[i] = middle(a, b);
       if (!is_quadratic(cell.kind)) continue;
       on.before[i] = between(a, m, 0.375 * x(a) + 0.75 * x(m) - 0.125 * x(b), own);
       on.after[i] = between(m, b, 0.375 * x(b) + 0.75 * x(m) - 0.125 * x(a), own);
@@ -192,7 +202,8 @@ class Halving {
         emit(c, cell.kind, {m[0], m[1], m[2]});
         break;
       case CellKind::quadrilateral: {
-        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, {corners_of(cell)});
+        const Vector3d corners = x(v[0]) + x(v[1]) + x(v[2]) + x(v[3]), edges = x(m[0]) + x(m[1]) + x(m[2]) + x(m[3]);
+        const PetscInt o = add(edges / 2 - corners / 4, {corners_of(cell)});
         for (int i = 0; i < 4; ++i) emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4]});
         break;
       }
@@ -276,6 +287,7 @@ class Halving {
 
   const RawMesh& whole_;
   const std::vector<Halved>& parts_;
+  const CurvedEdges curves_;
   RawMesh fine_;
   std::map<Edge, AtEdge> at_edge_;  // of the coarse mesh, by corners
   std::map<Edge, PetscInt> known_;  // nodes between two others
@@ -296,4 +308,4 @@ RawMesh halved(const RawMesh& whole, std::vector<DependentNode>& links, const st
   return halving.take();
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

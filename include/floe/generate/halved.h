@@ -1,14 +1,17 @@
 #pragma once
+#include "floe/generate/generate.h"
 #include "floe/mesh/links.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 /// Which elements of a part are divided.
 enum class Halved : char { all, along_shells, none };
 
 /// A mesh whose elements are half as long: lines become two, triangles and quadrilaterals four, of their kind and part.
 /// Nodes keep their numbers; new ones follow. They lie in the middle of edges and elements, of second order on their
-/// curves and surfaces, so that the refined mesh has the same geometry: flat elements remain flat.
+/// curves and surfaces. Those of flat shells lie on the surface that these form: on arcs through the ends of an edge
+/// with the elements' mean normals at its ends (folds of 42 degrees or more remain), and at the middle of a
+/// quadrilateral's four arcs, half their sum less a quarter of the corners'.
 ///
 /// A node on an edge belongs to a place that has both ends of it, but where the place is a line along the boundary and
 /// the edge is a chord of it; a node within an element to a place that has all its corners. One between nodes of the
@@ -21,4 +24,4 @@ enum class Halved : char { all, along_shells, none };
 /// @return all of it on every rank. Rank-local.
 RawMesh halved(const RawMesh& whole, std::vector<DependentNode>& links, const std::vector<Halved>& parts = {});
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,0 +1,25 @@
+#pragma once
+#include <Eigen/Core>
+#include <numbers>
+
+namespace floe::mesh {
+
+/// A flat shell element at one of its corners: unit normal of its two edges there (zero where one has no length; that
+/// of the bilinear surface for quadrilaterals) and angle between them.
+struct FacetCorner {
+  Eigen::Vector3d normal;
+  double angle;
+
+  FacetCorner(const Eigen::Vector3d& previous, const Eigen::Vector3d& at, const Eigen::Vector3d& next);
+  Eigen::Matrix3d weighted() const { return angle * normal * normal.transpose(); }
+};
+
+/// The normal of the surface at a node, of either sign: the axis N of greatest sum angle (n.N)^2.
+/// @param sum  FacetCorner::weighted of the elements there
+Eigen::Vector3d surface_normal(const Eigen::Matrix3d& sum);
+
+/// Angle [rad] between an element and the surface at a node from which on the surface is folded there; twice that
+/// between two elements.
+inline constexpr double fold = 21 * std::numbers::pi / 180;
+
+}  // namespace floe::mesh

@@ -1,0 +1,131 @@
+#include "floe/generate/halved.h"
+#include "generated.h"
+
+using namespace floe;
+using Eigen::Vector3d;
+using mesh::RawMesh;
+
+namespace {
+
+constexpr auto both = {generate::ShellCells::triangles, generate::ShellCells::quadrilaterals};
+
+RawMesh halved(const RawMesh& raw, int times = 1) {
+  std::vector<mesh::DependentNode> links;
+  RawMesh fine = raw;
+  for (int i = 0; i < times; ++i) fine = generate::halved(fine, links);
+  return fine;
+}
+
+RawMesh shell(generate::ShellCells cells, PetscInt nu, PetscInt nv, std::function<Vector3d(double u, double v)> at,
+              bool closed = false) {
+  generate::MappedGrid grid;
+  grid.nu = nu, grid.nv = nv, grid.position = std::move(at), grid.closed_u = closed, grid.cells = cells;
+  return generate::shell_of(PETSC_COMM_SELF, grid);
+}
+
+Vector3d on_cylinder(double angle, double z) { return {std::cos(angle), std::sin(angle), z}; }
+
+/// Of the nodes' distance from the surface that `off` measures.
+template <class Off>
+double worst(const RawMesh& raw, Off off) {
+  double most = 0;
+  for (const Vector3d& x : raw.positions) most = std::max(most, std::abs(off(x)));
+  return most;
+}
+
+double off_cylinder(const Vector3d& x) { return x.head<2>().norm() - 1; }
+
+}  // namespace
+
+TEST_CASE("quarter cylinders and tubes of quadrilaterals that are halved are those of twice as many") {
+  for (const PetscInt n : {3, 8})
+    for (const double turn : {M_PI / 2, 2 * M_PI}) {
+      const bool closed = turn > 6;
+      const PetscInt nu = closed ? 4 * n : n;
+      const auto at = [&](double u, double v) { return on_cylinder(turn * u, 2 * v * (1 + 0.3 * v)); };
+      const RawMesh fine = halved(shell(generate::ShellCells::quadrilaterals, nu, 2, at, closed), 2);
+      const RawMesh expected = shell(generate::ShellCells::quadrilaterals, 4 * nu, 8, at, closed);
+      CHECK(fine.node_count == expected.node_count);
+      CHECK(worst(fine, off_cylinder) < 1e-13);
+      std::set<long> angles;
+      for (const Vector3d& x : fine.positions) angles.insert(std::lround(1e9 * std::atan2(x[1], x[0])));
+      std::set<long> wanted;
+      for (const Vector3d& x : expected.positions) wanted.insert(std::lround(1e9 * std::atan2(x[1], x[0])));
+      CHECK(angles == wanted);
+    }
+}
+
+// `rise`: of an edge along u over its chord, where halved edges would be without arcs; `remains` of it.
+TEST_CASE("curved shells that are halved lie on their surfaces, with rims and corners") {
+  struct Surface {
+    const char* name;
+    std::function<Vector3d(double, double)> at;
+    std::function<double(const Vector3d&)> off;
+    double rise, remains;
+  };
+  const double arc = M_PI / 16;
+  const Surface surface = GENERATE_COPY(
+      Surface{"cylinder", [](double u, double v) { return on_cylinder(M_PI / 2 * u, 2 * v); }, off_cylinder,
+              1 - std::cos(arc / 2), 0.002},
+      Surface{"sphere",
+              [](double u, double v) {
+                const double b = 0.4 * M_PI * v;
+                return Vector3d(std::cos(b) * on_cylinder(M_PI / 2 * u, 0) + Vector3d(0, 0, std::sin(b)));
+              },
+              [](const Vector3d& x) { return x.norm() - 1; }, 1 - std::cos(arc / 2), 0.06},
+      Surface{"sphere, nodes out of line",
+              [](double u, double v) {
+                const double shift = 0.5 * u * (1 - u) * v * (1 - v);
+                const double a = M_PI / 2 * (u + shift * std::sin(97 * u + 31 * v)),
+                             b = 0.4 * M_PI * (v + shift * std::sin(57 * u - 83 * v));
+                return Vector3d(std::cos(b) * on_cylinder(a, 0) + Vector3d(0, 0, std::sin(b)));
+              },
+              [](const Vector3d& x) { return x.norm() - 1; }, 1 - std::cos(arc / 2), 0.3},
+      Surface{"paraboloid, straight lines across",
+              [](double u, double v) { return Vector3d(u, v, (u - v) * (u + v - 1)); },
+              [](const Vector3d& x) { return x[2] - (x[0] - x[1]) * (x[0] + x[1] - 1); }, 1. / 256, 0.21});
+  CAPTURE(surface.name);
+  for (const auto cells : both) {
+    const RawMesh coarse = shell(cells, 8, 8, surface.at);
+    for (const int times : {1, 2}) CHECK(worst(halved(coarse, times), surface.off) < surface.remains * surface.rise);
+  }
+}
+
+TEST_CASE("a can that is halved is round with a flat bottom, and a web in it is flat") {
+  for (const auto cells : both) {
+    const auto wall = shell(
+        cells, 16, 4, [](double u, double v) { return on_cylinder(2 * M_PI * u, 2 * v); }, true);
+    const auto bottom = shell(
+        cells, 16, 2, [](double u, double v) { return Vector3d((1 + v) / 2 * on_cylinder(2 * M_PI * u, 0)); }, true);
+    const auto web = shell(cells, 4, 4, [](double u, double v) { return Vector3d(2 * u - 1, 0, 2 * v); });
+    RawMesh can = generate::merged(generate::prefixed(wall, "wall."), generate::prefixed(bottom, "bottom."),
+                                   {{"wall.bottom", "bottom.top"}}, 1e-9);
+    can = generate::merged(can, generate::prefixed(web, "web."), {{"wall.shell", "web.shell"}}, 1e-9);
+    const RawMesh fine = halved(can, 2);
+    for (const mesh::Cell& cell : fine.cells)
+      for (int i = 0; i < mesh::corner_count(cell.kind); ++i) {
+        const Vector3d& x = fine.positions[cell.nodes[i]];
+        const std::string& part = fine.parts[cell.part];
+        INFO(part << x.transpose());
+        if (part.starts_with("wall"))
+          CHECK(std::abs(off_cylinder(x)) < (cells == generate::ShellCells::triangles ? 1e-3 : 1e-12));
+        if (part.starts_with("bottom")) CHECK(std::abs(x[2]) < 1e-12);
+        if (part.starts_with("web")) CHECK(std::abs(x[1]) < 1e-12);
+      }
+  }
+}
+
+TEST_CASE("folds of less than 42 degrees remain between flat walls of two elements, and rims of plates are arcs") {
+  for (const auto cells : both) {
+    const auto sheet = [](double u, double v) {  // walls at 0, 35, 0, -35 degrees
+      const double x = 4 * u, slope = std::tan(35 * M_PI / 180);
+      return Vector3d(x, 4 * v, slope * (std::clamp(x - 1, 0., 1.) - std::clamp(x - 3, 0., 1.)));
+    };
+    const RawMesh fine = halved(shell(cells, 8, 4, sheet));
+    CHECK(worst(fine, [&](const Vector3d& x) { return (sheet(x[0] / 4, 0) - x)[2]; }) < 1e-14);
+    const auto ring = [](double u, double v) { return Vector3d((1 + v) * on_cylinder(2 * M_PI * u, 0)); };
+    const RawMesh disc = shell(cells, 12, 2, ring, true);
+    CHECK(testing::measure(halved(disc), 0) ==
+          Approx(testing::measure(shell(cells, 24, 4, ring, true), 0)).epsilon(1e-13));
+  }
+}
