@@ -38,17 +38,24 @@ Eigen::VectorXd summed(const Mesh& mesh, const Eigen::VectorXd& own, int dofs) {
   return exchange.gather(field);
 }
 
-/// N at each local node; zero where an element is folded from it. Collective.
+/// N at each local node; zero where an element is folded from it, or the surface has a sharp edge. Collective.
 std::vector<Vector3d> surface_normals(const Mesh& mesh) {
+  constexpr int dofs = 9 + 3 + 1;  // sums of n n', of sectors, of angles
   const auto nodes = static_cast<Eigen::Index>(mesh.positions.size());
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(9 * nodes), folds = Eigen::VectorXd::Zero(nodes);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(dofs * nodes), folds = Eigen::VectorXd::Zero(nodes);
   each_corner(mesh, [&](Eigen::Index node, const mesh::FacetCorner& corner) {
-    Eigen::Map<Matrix3d>(sums.data() + 9 * node) += corner.weighted();
+    auto at = sums.segment<dofs>(dofs * node);
+    Eigen::Map<Matrix3d>(at.data()) += corner.weighted();
+    at.segment<3>(9) += corner.sector;
+    at[12] += corner.angle;
   });
-  sums = summed(mesh, sums, 9);
+  sums = summed(mesh, sums, dofs);
   std::vector<Vector3d> normals;
-  for (Eigen::Index node = 0; node < nodes; ++node)
-    normals.push_back(mesh::surface_normal(Eigen::Map<const Matrix3d>(sums.data() + 9 * node)));
+  for (Eigen::Index node = 0; node < nodes; ++node) {
+    const auto at = sums.segment<dofs>(dofs * node);
+    normals.push_back(mesh::surface_normal(Eigen::Map<const Matrix3d>(at.data())));
+    if (mesh::is_sharp(at.segment<3>(9), at[12])) normals.back().setZero();
+  }
   each_corner(mesh, [&](Eigen::Index node, const mesh::FacetCorner& corner) {
     if (corner.normal.cross(normals[node]).norm() >= std::sin(mesh::fold)) folds[node] += 1;
   });

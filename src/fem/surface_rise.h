@@ -11,8 +11,8 @@ namespace floe::fem {
 /// the surface), N that of the surface there, the mean of the elements at the node by their angles. For squares of side
 /// h on a sphere of curvature k it is their height k h^2 / 4, for rectangles h by l on a cylinder k h (h^2 +
 /// l^2)^(1/2) / 8. Corners where an element is 21 degrees or more from N have none: there the surface is folded, by 42
-/// degrees between equal halves, or branches. At free edges, at cuts into pieces and at seams of linked nodes, N is
-/// that of one side. Collective. The cells' rises must be zero before.
+/// degrees between equal halves, or branches; nor have sharp edges (mesh::is_sharp). At free edges, at cuts into pieces
+/// and at seams of linked nodes, N is that of one side. Collective. The cells' rises must be zero before.
 void set_rises(Mesh& mesh);
 
 }  // namespace floe::fem

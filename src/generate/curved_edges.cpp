@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -17,9 +18,10 @@ bool is_flat_shell(CellKind kind) { return is_shell(kind) && !is_quadratic(kind)
 
 bool folded(const Vector3d& one, const Vector3d& other) { return one.cross(other).norm() >= std::sin(2 * fold); }
 
+constexpr double round_off = 1e-8;
+
 /// Of an arc over the middle of its chord; none where the angle between them is round-off.
 double rise(double chord, double sine) {
-  constexpr double round_off = 1e-8;
   if (std::abs(sine) < round_off) return 0;
   return chord / 2 * sine / (1 + std::sqrt(std::max(0., 1 - sine * sine)));
 }
@@ -47,11 +49,30 @@ FacetCorner CurvedEdges::facet(PetscInt cell, PetscInt node) const {
   return {whole_.positions[previous], whole_.positions[node], whole_.positions[next]};
 }
 
+/// Whether two elements at an edge from `node` are one surface there: not folded, not on the same side of the edge.
+bool CurvedEdges::go_on(PetscInt cell, PetscInt other, PetscInt node, PetscInt end) const {
+  const Vector3d edge = from(node, end).stableNormalized();
+  const auto away = [&](PetscInt one) {
+    const auto [previous, next] = beside(one, node);
+    const Vector3d side = from(node, previous == end ? next : previous);
+    return Vector3d(side - edge.dot(side) * edge);
+  };
+  return away(cell).dot(away(other)) < 0 && !folded(facet(cell, node).normal, facet(other, node).normal);
+}
+
+/// The elements at a node that an element goes on to from edge to edge, without one that is folded from it.
 std::vector<CurvedEdges::Corner> CurvedEdges::surface(PetscInt cell, PetscInt node) const {
-  const Vector3d own = facet(cell, node).normal;
-  std::vector<Corner> corners;
-  for (const PetscInt other : at_[node])
-    if (const FacetCorner one = facet(other, node); !folded(one.normal, own)) corners.push_back({other, one});
+  std::vector<Corner> corners{{cell, facet(cell, node)}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (const PetscInt end : beside(corners[i].cell, node))
+      for (const PetscInt other : at_[node]) {
+        const auto [previous, next] = beside(other, node);
+        const bool seen =
+            std::any_of(corners.begin(), corners.end(), [&](const auto& one) { return one.cell == other; });
+        if (seen || (previous != end && next != end) || !go_on(corners[i].cell, other, node, end)) continue;
+        if (const FacetCorner one = facet(other, node); !folded(one.normal, corners[0].facet.normal))
+          corners.push_back({other, one});
+      }
   return corners;
 }
 
@@ -62,19 +83,17 @@ Vector3d CurvedEdges::middle(PetscInt cell) const {
   return sum / n;
 }
 
-CurvedEdges::Slope CurvedEdges::slope(PetscInt cell, PetscInt node, PetscInt other) const {
-  const Vector3d d = from(node, other);
+CurvedEdges::Normal CurvedEdges::normal(PetscInt cell, PetscInt node) const {
   Matrix3d sum = Matrix3d::Zero();
-  double angles = 0, ahead = 0;
+  Vector3d ahead = Vector3d::Zero();
+  double angles = 0;
   for (const Corner& one : surface(cell, node)) {
     sum += one.facet.weighted();
     angles += one.facet.angle;
-    ahead += one.facet.angle * (middle(one.cell) - whole_.positions[node]).dot(d) / d.squaredNorm();
+    ahead += one.facet.angle * (middle(one.cell) - whole_.positions[node]);
   }
-  const double known = 1 - 2 * ahead / angles;
-  const Vector3d normal = surface_normal(sum);
-  const double sine = -d.dot(normal) / d.norm();
-  return {normal.dot(facet(cell, node).normal) < 0 ? -sine : sine, known};
+  const Vector3d axis = surface_normal(sum), at = ahead / angles;
+  return {axis.dot(facet(cell, node).normal) < 0 ? Vector3d(-axis) : axis, at - axis.dot(at) * axis};
 }
 
 /// Unit tangent at `node` of the circle through it, `other` and the node before it along a rim of the surface.
@@ -86,7 +105,7 @@ std::optional<Vector3d> CurvedEdges::tangent_of_rim(PetscInt cell, PetscInt node
   std::erase_if(ends, [](const auto& end) { return end.second != 1; });
   if (ends.size() != 1) return {};
   const Vector3d back = from(ends.begin()->first, node), on = from(node, other);
-  if (back.dot(on) < std::cos(2 * fold) * back.norm() * on.norm()) return {};
+  if (!(back.dot(on) > std::cos(2 * fold) * back.norm() * on.norm())) return {};
   return (back / back.squaredNorm() + on / on.squaredNorm()).normalized();
 }
 
@@ -100,12 +119,23 @@ double CurvedEdges::rise_of_rim(PetscInt cell, PetscInt a, PetscInt b, const Vec
 
 double CurvedEdges::rise_inside(const std::vector<PetscInt>& shells, PetscInt cell, PetscInt a, PetscInt b,
                                 bool diagonals) const {
-  constexpr double all = 0.8, none = 1. / 3;
-  const Slope first = slope(cell, a, b), last = slope(cell, b, a);
-  const double length = from(a, b).norm(), h_a = rise(length, first.sine), h_b = rise(length, last.sine);
-  const bool on_a = first.known > all && last.known<none, on_b = last.known> all && first.known < none;
-  if (on_a || on_b) return on_a ? h_a : h_b;
-  if (diagonals && std::min(first.known, last.known) < all)
+  constexpr double least = 0.5;
+  const Vector3d chord = from(a, b), across = (facet(cell, a).normal + facet(cell, b).normal).stableNormalized();
+  const Normal first = normal(cell, a), last = normal(cell, b);
+  const auto known = [&](const Normal& end, const Normal& other, const Vector3d& d) {
+    Vector3d bend = other.axis - across.dot(other.axis) * across;
+    if (std::abs(bend.dot(d)) < 0.1 * bend.norm() * d.norm() || bend.norm() < round_off) bend = d;
+    return 1 - 2 * end.at.dot(bend) / d.dot(bend);
+  };
+  const auto height = [&](const Normal& end, const Vector3d& d, double share) {
+    const double sine = -d.dot(end.axis) / d.norm();
+    return rise(d.norm(), share > least && std::abs(std::log(share)) > std::log(4. / 3) ? sine / share : sine);
+  };
+  const double at_a = known(first, last, chord), at_b = known(last, first, -chord);
+  const double h_a = height(first, chord, at_a), h_b = height(last, -chord, at_b);
+  if (at_a > least && at_b > least) return harmonic_mean(h_a, h_b);
+  if (at_a > least || at_b > least) return at_a > least ? h_a : h_b;
+  if (diagonals && (h_a != 0 || h_b != 0))
     if (const auto h = rise_of_diagonal(shells, cell, a, b)) return *h;
   return harmonic_mean(h_a, h_b);
 }
@@ -127,6 +157,16 @@ std::optional<double> CurvedEdges::rise_of_diagonal(const std::vector<PetscInt>&
   return middle.dot(normal.normalized());
 }
 
+/// Of an element across one of its edges.
+double CurvedEdges::width(PetscInt cell, PetscInt a, PetscInt b) const {
+  const Vector3d edge = from(a, b).stableNormalized();
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < corner_count(whole_.cells[cell].kind); ++i)
+    if (const PetscInt node = whole_.cells[cell].nodes[i]; node != a && node != b)
+      least = std::min(least, edge.cross(from(a, node)).norm());
+  return least;
+}
+
 Vector3d CurvedEdges::offset(PetscInt a, PetscInt b, bool diagonals) const {
   std::vector<PetscInt> shells;
   std::vector<Vector3d> normals;
@@ -140,12 +180,14 @@ Vector3d CurvedEdges::offset(PetscInt a, PetscInt b, bool diagonals) const {
   Vector3d rises = Vector3d::Zero();
   const auto add = [&](const Vector3d& axis, double h) { sum += axis * axis.transpose(), rises += h * axis; };
   for (std::size_t i = 0; i < shells.size(); ++i) {
-    const Vector3d& normal = normals[i];
-    const bool rim = std::count_if(normals.begin(), normals.end(),
-                                   [&](const Vector3d& other) { return !folded(normal, other); }) == 1;
-    if (!rim) add(normal, rise_inside(shells, shells[i], a, b, diagonals));
-    for (const Vector3d& axis : {normal, Vector3d(normal.cross(from(a, b)).stableNormalized())})
-      if (rim) add(axis, rise_of_rim(shells[i], a, b, axis));
+    const auto goes_on = [&](PetscInt other) { return other != shells[i] && go_on(shells[i], other, a, b); };
+    const bool rim = std::none_of(shells.begin(), shells.end(), goes_on);
+    add(normals[i], rim ? rise_of_rim(shells[i], a, b, normals[i]) : rise_inside(shells, shells[i], a, b, diagonals));
+  }
+  if (shells.size() == 1) {
+    const Vector3d axis = normals[0].cross(from(a, b)).stableNormalized();
+    const double most = width(shells[0], a, b) / 4, h = rise_of_rim(shells[0], a, b, axis);
+    add(axis, std::clamp(h, -most, most));
   }
   if (rises.isZero(0)) return rises;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(sum);  // of two elements: 1 +- the cosine of their angle

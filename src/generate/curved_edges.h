@@ -15,13 +15,19 @@ namespace floe::generate {
 /// and from b by h_b; an edge by their harmonic mean 2 h_a h_b / (h_a + h_b): exact on circles, and 0 where the surface
 /// is flat at an end (h_a h_b <= 0), so that flat walls remain flat beside a curved one.
 ///
-/// The surface of an element at a node are the elements there within 42 degrees of it: skins remain curved where webs
-/// meet them, and folds are sharp. Edges within it rise along its normal: sin phi_a = -d.N / |d| with the mean normal N
-/// of these elements (surface_normal), which is the surface's at the mean c of their middles, at x = (c - a).d / |d|^2
-/// of the chord. At rims and folds x is not 0, and 1 - 2 x less than 1: where less than 1/3 the other end's h is taken
-/// (edges across), where less than 0.8 the middle of the quadrilateral that the triangles form (diagonals). Along a rim
-/// phi_a is that of the circle through a and the nodes beside it, along the normal and in the surface; corners of 42
-/// degrees or more have none, the other end's is taken.
+/// The surface of an element at a node are the elements there to which it goes on from edge to edge, within 42 degrees
+/// of it, on the other side of each edge: skins remain curved where webs meet them, folds and sharp edges are sharp.
+/// Edges within it rise along its normal. The mean normal N_a of these elements (surface_normal) is the surface's at
+/// the mean c of their middles; along the direction e in which the surface bends at the other end (N_b against the
+/// element's normal; d where N_b is that, or does not bend along d),
+///
+///   sin phi_a = -d.N_a / |d| / k_a,   k_a = 1 - 2 (c - a).e / d.e
+///
+/// k is 1 where elements are alike around a node (3/4 to 4/3 count as 1), and small where they end across e. An end
+/// with k < 1/2 has no phi, and the other end's h is taken; where neither has one, h is that of the middle of the
+/// quadrilateral that the two triangles form. Along a rim phi_a is that of the circle through a and the nodes beside
+/// it; corners of 42 degrees or more have none. Rims of one element are arcs in their surface, too, by at most a
+/// quarter of its width, so that no element folds.
 class CurvedEdges {
  public:
   /// @param whole  on every rank; must outlive this
@@ -38,14 +44,16 @@ class CurvedEdges {
   };
   std::array<PetscInt, 2> beside(PetscInt cell, PetscInt node) const;
   FacetCorner facet(PetscInt cell, PetscInt node) const;
+  bool go_on(PetscInt cell, PetscInt other, PetscInt node, PetscInt end) const;
   std::vector<Corner> surface(PetscInt cell, PetscInt node) const;
+  double width(PetscInt cell, PetscInt a, PetscInt b) const;
   Eigen::Vector3d middle(PetscInt cell) const;
   Eigen::Vector3d from(PetscInt a, PetscInt b) const { return whole_.positions[b] - whole_.positions[a]; }
 
-  struct Slope {
-    double sine = 0, known = 0;  ///< sin phi at an end, and 1 - 2 x
+  struct Normal {
+    Eigen::Vector3d axis, at;  ///< on the element's side; c from the node
   };
-  Slope slope(PetscInt cell, PetscInt node, PetscInt other) const;
+  Normal normal(PetscInt cell, PetscInt node) const;
   std::optional<Eigen::Vector3d> tangent_of_rim(PetscInt cell, PetscInt node, PetscInt other) const;
   double rise_of_rim(PetscInt cell, PetscInt a, PetscInt b, const Eigen::Vector3d& axis) const;
   double rise_inside(const std::vector<PetscInt>& shells, PetscInt cell, PetscInt a, PetscInt b, bool diagonals) const;

@@ -76,7 +76,14 @@ generate::Halved division_of(const fem::Section& section) {
   return rod ? generate::Halved::along_shells : generate::Halved::none;
 }
 
-/// Elements halved as often as the scene wants. @throws InputError  too many. Collective.
+/// Faults of elements and nodes, by their numbers in the file.
+std::vector<std::string> faults_of(const Body& body, const mesh::Inspection& inspection) {
+  std::vector<std::string> faults;
+  for (const std::string& fault : inspection.faults) faults.push_back(body.mesh.where.text() + ": " + fault);
+  return faults;
+}
+
+/// Elements halved as often as the scene wants. @throws InputError  too many; faults of the file. Collective.
 void refine(const Body& body, Source& source) {
   constexpr double most = 1e7;  // every rank holds them all
   const int times = body.mesh.file->refine;
@@ -85,6 +92,7 @@ void refine(const Body& body, Source& source) {
     throw InputError(
         fmt::format("{}.file.refine: is {}, which makes up to {:.3g} elements of {}; expected at most {:g}",
                     body.mesh.where.text(), times, elements, source.mesh.cell_count, most));
+  if (const auto faults = faults_of(body, mesh::inspect(source.mesh)); !faults.empty()) throw InputError(faults);
   std::vector<generate::Halved> parts(source.mesh.parts.size(), generate::Halved::all);
   for (const auto& [part, section] : source.parts) parts[part] = division_of(section);
   mesh::RawMesh whole = on_every_rank(source.mesh);
@@ -167,8 +175,7 @@ Source raw_mesh(const Body& body, MPI_Comm comm) {
 }
 
 void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
-  std::vector<std::string> faults;
-  for (const std::string& fault : inspection.faults) faults.push_back(body.mesh.where.text() + ": " + fault);
+  std::vector<std::string> faults = faults_of(body, inspection);
   if (inspection.component_count > 1) {
     std::vector<std::string> pieces;
     for (const mesh::Component& piece : inspection.components)

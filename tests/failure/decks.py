@@ -74,6 +74,10 @@ def cases(Case):
     yield Case("deck: scaled, with sections of the scene", ["modes", "scene.yaml"], 0, files={"part.inp": deck(MILLIMETRES, 2)},
                scene=scene("path: part.inp, scale: 1e-3", BY_NAME), **silent)
     sprung = deck(METRES, 0.01, more="*ELEMENT, TYPE=SPRINGA, ELSET=S\n9, 1, 6\n*SPRING, ELSET=S\n\n1e5\n")
+    for name, fault, says in (("doubled element", ("*NSET, NSET=ROOT", "*ELEMENT, TYPE=S4, ELSET=LEFT\n3, 1, 2, 5, 4\n*NSET, NSET=ROOT"), "element 3 has the nodes of element 1"),
+                              ("collapsed element", ("1, 1, 2, 5, 4", "1, 1, 2, 5, 5"), "element 1 has the same node twice")):
+        yield Case(f"deck: refined, {name}", COMMANDS["modes"], 2, says=(says,), scene=scene("path: part.inp, refine: 1"),
+                   files={"part.inp": deck(METRES, 0.01).replace(*fault)})
     yield Case("deck: springs", COMMANDS["run"], 0, lines=0, scene=scene(), files={"part.inp": sprung})
     yield Case("deck: springs, cfr", COMMANDS["run"] + ["--formulation", "cfr"], 0, lines=0, scene=scene(), files={"part.inp": sprung})
     yield Case("deck: springs, frames", COMMANDS["modes"], 2, ("the spring between nodes 1 and 6 of body p joins two of its 2 frames; expected",),

@@ -83,7 +83,7 @@ ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& 
 /// planes of the elements: drilling rotations of their corners differ by kappa h, times the slope 4 s / h. By beta_0
 /// that costs (s / t)^2 times the energy of bending: elements lock. With eta at most about a hundredth of it remains.
 /// alpha follows so that strips with one element across have 0.65 to 1.05 of their deflection in their plane (3/2: 2 at
-/// s = 3 t), with four 0.78 to 1; it is 3/2 eta^(1/12) for s < 3 t, and 4.5 t / s for s > 30 t (eta^(1/12): 8 at 100
+/// s = 3 t), with four 0.78 to 1; it is 3/2 eta^(1/12) for s < t, and 4.5 t / s for s > 30 t (eta^(1/12): 8 at 100
 /// t). Flat elements keep beta_0 and 3/2, and the smaller s / t is, the less they change.
 ShellSection on_curved_surface(ShellSection section, double rise);
 

@@ -9,6 +9,7 @@ namespace floe::mesh {
 struct FacetCorner {
   Eigen::Vector3d normal;
   double angle;
+  Eigen::Vector3d sector;  ///< integral of unit vectors from the corner into the element over the angle
 
   FacetCorner(const Eigen::Vector3d& previous, const Eigen::Vector3d& at, const Eigen::Vector3d& next);
   Eigen::Matrix3d weighted() const { return angle * normal * normal.transpose(); }
@@ -17,6 +18,10 @@ struct FacetCorner {
 /// The normal of the surface at a node, of either sign: the axis N of greatest sum angle (n.N)^2.
 /// @param sum  FacetCorner::weighted of the elements there
 Eigen::Vector3d surface_normal(const Eigen::Matrix3d& sum);
+
+/// Whether elements at a node lie on one another, as at the edge of a wedge: their sectors have a greater sum than one
+/// element of all their angles, or half a plane, would have by a tenth.
+bool is_sharp(const Eigen::Vector3d& sectors, double angles);
 
 /// Angle [rad] between an element and the surface at a node from which on the surface is folded there; twice that
 /// between two elements.

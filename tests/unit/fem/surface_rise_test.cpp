@@ -54,6 +54,22 @@ TEST_CASE("flat plates in any position and boxes have no rise", "[fem]") {
   for (const auto& cell : fem::mesh_of(raw, testing::ranks_of(raw, Spread::metis)).cells) CHECK(cell.rise == 0);
 }
 
+TEST_CASE("two flat plates are a curved surface at a fold of less than 42 degrees, not at a sharp edge", "[fem]") {
+  const auto cells = GENERATE(generate::ShellCells::triangles, generate::ShellCells::quadrilaterals);
+  const auto [degrees, curved] =
+      GENERATE(std::pair(30, true), std::pair(45, false), std::pair(140, false), std::pair(165, false));
+  const double angle = degrees * M_PI / 180;
+  generate::Plate first{{0, 0, 0}, Vector3d(-1, 0, 0), Vector3d(0, 2, 0), 1, 3, cells}, second = first;
+  second.a = Vector3d(std::cos(angle), 0, std::sin(angle));
+  const mesh::RawMesh raw = generate::merged(generate::prefixed(generate::plate(PETSC_COMM_WORLD, first), "a."),
+                                             generate::prefixed(generate::plate(PETSC_COMM_WORLD, second), "b."),
+                                             {{"a.left", "b.left"}}, 1e-9);
+  for (const auto& cell : fem::mesh_of(raw, testing::ranks_of(raw, Spread::metis)).cells) {
+    CAPTURE(degrees);
+    CHECK((cell.rise > 0) == curved);
+  }
+}
+
 TEST_CASE("flat webs on flat skins are flat, at any angle of their corners and against the skin", "[fem]") {
   const Vector3d up = GENERATE(Vector3d(0, 0, 1), Vector3d(0, 1, 1), Vector3d(0, 1, 1.8));
   const double along = GENERATE(0., 1.);  // corners of 90 and of 35 to 45 degrees

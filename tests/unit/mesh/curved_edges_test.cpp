@@ -17,8 +17,9 @@ RawMesh halved(const RawMesh& raw, int times = 1) {
 }
 
 RawMesh shell(generate::ShellCells cells, PetscInt nu, PetscInt nv, std::function<Vector3d(double u, double v)> at,
-              bool closed = false) {
+              bool closed = false, generate::Diagonals diagonals = generate::Diagonals::right) {
   generate::MappedGrid grid;
+  grid.diagonals = diagonals;
   grid.nu = nu, grid.nv = nv, grid.position = std::move(at), grid.closed_u = closed, grid.cells = cells;
   return generate::shell_of(PETSC_COMM_SELF, grid);
 }
@@ -72,7 +73,7 @@ TEST_CASE("curved shells that are halved lie on their surfaces, with rims and co
                 const double b = 0.4 * M_PI * v;
                 return Vector3d(std::cos(b) * on_cylinder(M_PI / 2 * u, 0) + Vector3d(0, 0, std::sin(b)));
               },
-              [](const Vector3d& x) { return x.norm() - 1; }, 1 - std::cos(arc / 2), 0.06},
+              [](const Vector3d& x) { return x.norm() - 1; }, 1 - std::cos(arc / 2), 0.11},
       Surface{"sphere, nodes out of line",
               [](double u, double v) {
                 const double shift = 0.5 * u * (1 - u) * v * (1 - v);
@@ -115,17 +116,53 @@ TEST_CASE("a can that is halved is round with a flat bottom, and a web in it is 
   }
 }
 
-TEST_CASE("folds of less than 42 degrees remain between flat walls of two elements, and rims of plates are arcs") {
+TEST_CASE("folds of less than 42 degrees remain between flat walls of two elements") {
+  using generate::Diagonals;
+  const auto diagonals = GENERATE(Diagonals::right, Diagonals::left, Diagonals::alternating, Diagonals::crossed);
+  const auto wall = [](double x) {  // at 0, 35, 0, -35 degrees
+    return std::tan(35 * M_PI / 180) * (std::clamp(x - 1, 0., 1.) - std::clamp(x - 3, 0., 1.));
+  };
+  const auto polygon = [](double u) {  // of 12 sides
+    const double side = std::floor(12 * u + 1e-9), share = 12 * u - side;
+    return Vector3d((1 - share) * on_cylinder(M_PI / 6 * side, 0) + share * on_cylinder(M_PI / 6 * (side + 1), 0));
+  };
+  const auto inside = [](const Vector3d& x) {
+    const double angle = std::remainder(std::atan2(x[1], x[0]) - M_PI / 12, M_PI / 6);
+    return x.head<2>().norm() * std::cos(angle) - std::cos(M_PI / 12);
+  };
+  for (const auto cells : both)
+    for (const PetscInt rows : {1, 4}) {
+      if (diagonals == Diagonals::crossed && cells == generate::ShellCells::quadrilaterals) continue;
+      CAPTURE(static_cast<int>(diagonals), rows);
+      const auto sheet = [&](double u, double v) { return Vector3d(4 * u, rows * v, wall(4 * u)); };
+      CHECK(worst(halved(shell(cells, 8, rows, sheet, false, diagonals), 2),
+                  [&](const Vector3d& x) { return wall(x[0]) - x[2]; }) < 1e-13);
+      const auto tube = [&](double u, double v) { return Vector3d(polygon(u) + Vector3d(0, 0, v)); };
+      CHECK(worst(halved(shell(cells, 24, rows, tube, true, diagonals), 2), inside) < 1e-13);
+    }
+}
+
+TEST_CASE("walls of a wedge of 15 degrees remain flat, with a sharp edge") {
   for (const auto cells : both) {
-    const auto sheet = [](double u, double v) {  // walls at 0, 35, 0, -35 degrees
-      const double x = 4 * u, slope = std::tan(35 * M_PI / 180);
-      return Vector3d(x, 4 * v, slope * (std::clamp(x - 1, 0., 1.) - std::clamp(x - 3, 0., 1.)));
-    };
-    const RawMesh fine = halved(shell(cells, 8, 4, sheet));
-    CHECK(worst(fine, [&](const Vector3d& x) { return (sheet(x[0] / 4, 0) - x)[2]; }) < 1e-14);
-    const auto ring = [](double u, double v) { return Vector3d((1 + v) * on_cylinder(2 * M_PI * u, 0)); };
-    const RawMesh disc = shell(cells, 12, 2, ring, true);
-    CHECK(testing::measure(halved(disc), 0) ==
-          Approx(testing::measure(shell(cells, 24, 4, ring, true), 0)).epsilon(1e-13));
+    const double slope = std::tan(M_PI / 24);
+    const auto wedge = [&](double u, double v) { return Vector3d(-std::abs(u - 0.5), v, slope * (u - 0.5)); };
+    const RawMesh fine = halved(shell(cells, 2, 4, wedge));
+    CHECK(worst(fine, [&](const Vector3d& x) { return std::abs(x[2]) + slope * x[0]; }) < 1e-13);
   }
+}
+
+TEST_CASE("rims of plates are arcs that fold no element") {
+  for (const auto cells : both)
+    for (const double width : {1., 0.1, 0.02}) {
+      const auto ring = [&](double u, double v) { return Vector3d((1 + width * v) * on_cylinder(2 * M_PI * u, 0)); };
+      const RawMesh fine = halved(shell(cells, 12, 2, ring, true), 2);
+      if (width == 1)
+        CHECK(testing::measure(fine, 0) == Approx(testing::measure(shell(cells, 48, 8, ring, true), 0)).epsilon(1e-3));
+      for (const mesh::Cell& cell : fine.cells)
+        for (int n = mesh::corner_count(cell.kind), i = 0; i < n; ++i) {
+          const Vector3d &x = fine.positions[cell.nodes[i]], to = fine.positions[cell.nodes[(i + 1) % n]] - x,
+                         back = fine.positions[cell.nodes[(i + n - 1) % n]] - x;
+          CHECK(to.cross(back)[2] < 0);
+        }
+    }
 }
