@@ -135,9 +135,9 @@ ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& 
 
 ShellSection on_curved_surface(ShellSection section, double rise) {
   const double thickness_squared = 12 * section.bending.trace() / section.A.trace();
-  const double x_squared = 100 * rise * rise / thickness_squared, eta = 1 / (1 + x_squared), r = std::pow(eta, 0.25);
+  const double eta = 1 / (1 + 100 * rise * rise / thickness_squared);
   section.higher_order *= eta;
-  section.drilling *= std::cbrt(r / (1 + x_squared / (27000 * r)));
+  section.drilling = std::min(section.drilling * std::pow(eta, 1. / 12), 50 * std::sqrt(eta));
   return section;
 }
 

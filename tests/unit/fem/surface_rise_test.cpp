@@ -105,16 +105,16 @@ TEST_CASE("the section of an element on a curved surface keeps its bending and i
   const fem::ShellSection curved = fem::on_curved_surface(flat, 0.03), same = fem::on_curved_surface(flat, 0);
   CHECK((curved.A == flat.A && curved.bending == flat.bending && curved.coupling == flat.coupling));
   CHECK(curved.higher_order == Approx(flat.higher_order / 10));  // 1 + (10 * 0.03 / 0.1)^2, at any offset
-  CHECK(curved.drilling == Approx(1.5 * std::pow(0.1, 1. / 12)).epsilon(3e-4));
+  CHECK(curved.drilling == Approx(1.5 * std::pow(0.1, 1. / 12)));
   CHECK((same.higher_order == flat.higher_order && same.drilling == 1.5));
 }
 
 // A force in its plane at the end of a cantilever of 10 by 1, of the deflection of a beam with shear.
 TEST_CASE("strips of elements as on a surface that rises by any number of thicknesses bend in their plane", "[fem]") {
   const auto cells = GENERATE(testing::Cells::triangles, testing::Cells::quadrilaterals);
-  const auto [across, least, most] = GENERATE(std::tuple(1, 0.64, 1.06), std::tuple(2, 0.76, 1.01));
+  const auto [across, least, most] = GENERATE(std::tuple(1, 0.75, 1.46), std::tuple(2, 0.79, 1.01));
   const fem::ShellSection flat = fem::shell_section({{fem::isotropic(1, 0.3, 1), 1, 0}});
-  for (const double rise : {0.03, 0.1, 0.3, 1., 3., 10., 30., 100., 1000.}) {
+  for (const double rise : {0.03, 0.1, 0.3, 1., 3., 6.7, 10., 30., 100., 1000.}) {
     testing::Plate strip = testing::plate(10, 1, 10 * across, across, cells);
     strip.hold([](const Vector3d& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5});
     Eigen::VectorXd load = Eigen::VectorXd::Zero(strip.dofs());
@@ -126,7 +126,7 @@ TEST_CASE("strips of elements as on a surface that rises by any number of thickn
     const Eigen::VectorXd q = testing::solved(testing::stiffness(strip, fem::on_curved_surface(flat, rise)), load);
     const double deflection = load.dot(q) / (4000 + 10 * 2.6 * 1.2);
     CAPTURE(rise, deflection);
-    CHECK(deflection > (across == 2 && rise <= 3 ? 0.86 : least));
+    CHECK(deflection > (across == 2 && rise <= 3 ? 0.88 : least));
     CHECK(deflection < most);
   }
 }
