@@ -27,8 +27,8 @@ bool has_weight(const AveragingWeight& weight) { return weight.share != 0 || !we
 
 /// a of an averaging weight's arm, theta x a. In an edge of a shell, arm = c (1 + (alpha - 1) t t') (theta x s), the
 /// greater one: where alpha > 1 the one of displacements in the plane, alpha c s, so that even tension is exact
-/// ((1 + alpha) / 2 from the skew part of the matrix, (alpha - 1) / 2 from the symmetric one). On surfaces that rise by
-/// more than the thickness alpha < 1, and a is c s.
+/// ((1 + alpha) / 2 from the skew part of the matrix, (alpha - 1) / 2 from the symmetric one). Where alpha < 1, a
+/// is c s.
 Vector3d arm_of(const AveragingWeight& weight) {
   const Eigen::Matrix3d twice = weight.arm.transpose() - weight.arm;
   const Vector3d a = Vector3d(twice(2, 1), twice(0, 2), twice(1, 0)) / 2;

@@ -12,8 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using petsc::check;
 
-bool is_flat_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind) && !mesh::is_quadratic(cell.kind); }
-
 mesh::FacetCorner at_corner(const Mesh& mesh, const Mesh::Cell& cell, std::size_t i) {
   const auto nodes = cell.corners();
   const std::size_t n = nodes.size();
@@ -24,7 +22,7 @@ mesh::FacetCorner at_corner(const Mesh& mesh, const Mesh::Cell& cell, std::size_
 template <class Act>
 void each_corner(const Mesh& mesh, Act&& act) {
   for (const Mesh::Cell& cell : mesh.cells)
-    for (std::size_t i = 0; is_flat_shell(cell) && i < cell.corners().size(); ++i)
+    for (std::size_t i = 0; mesh::is_flat_shell(cell.kind) && i < cell.corners().size(); ++i)
       act(static_cast<Eigen::Index>(cell.corners()[i]), at_corner(mesh, cell, i));
 }
 
@@ -71,11 +69,12 @@ void set_rises(Mesh& mesh) {
   constexpr double round_off = 1e-8;
   const std::vector<Vector3d> normals = surface_normals(mesh);
   for (Mesh::Cell& cell : mesh.cells) {
-    if (!is_flat_shell(cell)) continue;
+    if (!mesh::is_flat_shell(cell.kind)) continue;
     const auto nodes = cell.corners();
     const auto count = static_cast<double>(nodes.size());
     Vector3d middle = Vector3d::Zero();
     for (const int node : nodes) middle += mesh.positions[node] / count;
+    cell.rise = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const double slope = at_corner(mesh, cell, i).normal.cross(normals[nodes[i]]).norm();
       if (slope > round_off) cell.rise += (mesh.positions[nodes[i]] - middle).norm() * slope / 2 / count;

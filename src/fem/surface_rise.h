@@ -12,7 +12,7 @@ namespace floe::fem {
 /// h on a sphere of curvature k it is their height k h^2 / 4, for rectangles h by l on a cylinder k h (h^2 +
 /// l^2)^(1/2) / 8. Corners where an element is 21 degrees or more from N have none: there the surface is folded, by 42
 /// degrees between equal halves, or branches; nor have sharp edges (mesh::is_sharp). At free edges, at cuts into pieces
-/// and at seams of linked nodes, N is that of one side. Collective. The cells' rises must be zero before.
+/// and at seams of linked nodes, N is that of one side. Collective.
 void set_rises(Mesh& mesh);
 
 }  // namespace floe::fem

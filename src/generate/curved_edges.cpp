@@ -6,15 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace floe::generate {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-bool is_flat_shell(CellKind kind) { return is_shell(kind) && !is_quadratic(kind); }
 
 bool folded(const Vector3d& one, const Vector3d& other) { return one.cross(other).norm() >= std::sin(2 * fold); }
 

@@ -25,9 +25,9 @@ namespace floe::generate {
 ///
 /// k is 1 where elements are alike around a node (3/4 to 4/3 count as 1), and small where they end across e. An end
 /// with k < 1/2 has no phi, and the other end's h is taken; where neither has one, h is that of the middle of the
-/// quadrilateral that the two triangles form. Along a rim phi_a is that of the circle through a and the nodes beside
-/// it; corners of 42 degrees or more have none. Rims of one element are arcs in their surface, too, by at most a
-/// quarter of its width, so that no element folds.
+/// quadrilateral that two triangles form at the edge; at other elements the harmonic mean of both for k = 1. Along a
+/// rim phi_a is that of the circle through a and the nodes beside it; corners of 42 degrees or more have none. Rims of
+/// one element are arcs in their surface, too, by at most a quarter of its width, so that no element folds.
 class CurvedEdges {
  public:
   /// @param whole  on every rank; must outlive this

@@ -21,7 +21,7 @@ Vector3d surface_normal(const Eigen::Matrix3d& sum) {
 }
 
 bool is_sharp(const Vector3d& sectors, double angles) {
-  return sectors.norm() > 1.1 * 2 * std::sin(std::min(angles, M_PI) / 2);
+  return sectors.norm() > 1.1 * 2 * std::sin(std::min(angles, std::numbers::pi) / 2);
 }
 
 }  // namespace floe::mesh

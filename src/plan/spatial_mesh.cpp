@@ -83,7 +83,7 @@ std::vector<std::string> faults_of(const Body& body, const mesh::Inspection& ins
   return faults;
 }
 
-/// Elements halved as often as the scene wants. @throws InputError  too many; faults of the file. Collective.
+/// All elements halved `file.refine` times. @throws InputError  too many; faults of the file. Collective.
 void refine(const Body& body, Source& source) {
   constexpr double most = 1e7;  // every rank holds them all
   const int times = body.mesh.file->refine;

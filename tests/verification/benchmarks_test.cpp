@@ -70,8 +70,8 @@ TEST_CASE("twisted beam of MacNeal and Harder") {
 }
 
 // The same, 100 times thinner; Simo, Fox and Rifai 1989, Comput. Methods Appl. Mech. Eng. 73, 53-92: unit forces of
-// 1e-6. Quadrilaterals of four nodes are warped here: with 12 by 2
-// a corner is 22 thicknesses off the plane of the other three; triangles are flat, the surface is not.
+// 1e-6. Quadrilaterals of four nodes are warped here: with 12 by 2 a corner is 22 thicknesses off the plane of the
+// other three; triangles are flat, the surface is not.
 TEST_CASE("twisted beam, thin") {
   const auto [type, n, m, tolerance] =
       GENERATE(std::tuple("S8R", 24, 4, 5e-3), std::tuple("S4", 24, 4, 6e-3), std::tuple("S4", 12, 2, 2e-2),

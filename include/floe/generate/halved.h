@@ -10,8 +10,9 @@ enum class Halved : char { all, along_shells, none };
 /// A mesh whose elements are half as long: lines become two, triangles and quadrilaterals four, of their kind and part.
 /// Nodes keep their numbers; new ones follow. They lie in the middle of edges and elements, of second order on their
 /// curves and surfaces. Those of flat shells lie on the surface that these form: on arcs through the ends of an edge
-/// with the elements' mean normals at its ends (folds of 42 degrees or more remain), and at the middle of a
-/// quadrilateral's four arcs, half their sum less a quarter of the corners'.
+/// by the elements' mean normals there, or by the neighbours along a rim, as flat as walls beside them (CurvedEdges);
+/// folds of 42 degrees or more remain. The middle of a quadrilateral is half the sum of its arcs' middles less a
+/// quarter of the corners'.
 ///
 /// A node on an edge belongs to a place that has both ends of it, but where the place is a line along the boundary and
 /// the edge is a chord of it; a node within an element to a place that has all its corners. One between nodes of the

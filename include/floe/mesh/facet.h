@@ -2,7 +2,11 @@
 #include <Eigen/Core>
 #include <numbers>
 
+#include "floe/mesh/raw_mesh.h"
+
 namespace floe::mesh {
+
+constexpr bool is_flat_shell(CellKind kind) { return is_shell(kind) && !is_quadratic(kind); }
 
 /// A flat shell element at one of its corners: unit normal of its two edges there (zero where one has no length; that
 /// of the bilinear surface for quadrilaterals) and angle between them.
@@ -19,8 +23,8 @@ struct FacetCorner {
 /// @param sum  FacetCorner::weighted of the elements there
 Eigen::Vector3d surface_normal(const Eigen::Matrix3d& sum);
 
-/// Whether elements at a node lie on one another, as at the edge of a wedge: their sectors have a greater sum than one
-/// element of all their angles, or half a plane, would have by a tenth.
+/// Whether elements at a node lie on top of one another, as at the edge of a wedge: the norm of the sum of their
+/// sectors exceeds by a tenth that of one flat element with the sum of their angles (at most pi).
 bool is_sharp(const Eigen::Vector3d& sectors, double angles);
 
 /// Angle [rad] between an element and the surface at a node from which on the surface is folded there; twice that
