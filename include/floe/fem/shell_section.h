@@ -81,10 +81,10 @@ ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& 
 ///
 /// Bending of the surface without stretching rotates nodes about axes in it, not in the planes of the elements:
 /// drilling rotations of their corners differ by kappa h, times the slope 4 s / h. By beta_0 that costs (s / t)^2 times
-/// the energy of bending: elements lock. With eta at most about a hundredth of it remains. alpha follows so that strips
-/// with one element across have 0.65 to 1.45 of their deflection in their plane (3/2: 2 at s = 3 t, 130 at 100 t;
-/// eta^(1/12) alone 8), with two 0.69 to 1, with four 0.79 to 1. Flat elements keep beta_0 and 3/2, and the smaller s /
-/// t is, the less they change.
+/// the energy of bending: elements lock. With eta at most about a hundredth remains. alpha follows so that strips of
+/// elements up to twice as long as wide have 0.65 to 1.46 of their deflection in their plane with one across (with 3/2
+/// twice it at s = 3 t, with eta^(1/12) alone 8 times at 100 t), 0.69 to 1 with two, 0.79 to 1 with four. Flat elements
+/// keep beta_0 and 3/2; small rises change them little.
 ShellSection on_curved_surface(ShellSection section, double rise);
 
 /// Plane-stress stiffness Q of a material in its own axes, (1, 2, 12) [Pa].
