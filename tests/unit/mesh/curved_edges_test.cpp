@@ -116,6 +116,26 @@ TEST_CASE("a can that is halved is round with a flat bottom, and a web in it is 
   }
 }
 
+TEST_CASE("beams along edges of a curved shell that is halved follow it, across its elements they remain straight") {
+  for (const auto cells : both) {
+    RawMesh skin = shell(cells, 4, 2, [](double u, double v) { return on_cylinder(M_PI / 2 * u, v); });
+    const PetscInt row = 5;  // nodes 5 to 9: v = 1/2
+    for (const auto& [a, b] : {std::pair<PetscInt, PetscInt>{row, row + 1}, {0, row + 2}}) {
+      mesh::Cell beam{mesh::CellKind::line, mesh::no_nodes<PetscInt>(), 0};
+      beam.nodes[0] = a, beam.nodes[1] = b;
+      skin.cells.push_back(beam), skin.cell_labels.push_back(100 + a);
+    }
+    skin.cell_count += 2;
+    const RawMesh fine = halved(skin);
+    const auto middle = [&](long long label) {
+      const auto at = std::find(fine.cell_labels.begin(), fine.cell_labels.end(), label) - fine.cell_labels.begin();
+      return fine.positions[fine.cells[at].nodes[1]];
+    };
+    CHECK((middle(100 + row) - on_cylinder(M_PI / 16, 0.5)).norm() < 1e-3);
+    CHECK((middle(100) - (skin.positions[0] + skin.positions[row + 2]) / 2).norm() < 1e-14);
+  }
+}
+
 TEST_CASE("folds of less than 42 degrees remain between flat walls of two elements") {
   using generate::Diagonals;
   const auto diagonals = GENERATE(Diagonals::right, Diagonals::left, Diagonals::alternating, Diagonals::crossed);
