@@ -36,20 +36,27 @@ std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedN
   return mine;
 }
 
-/// Sum of weight/2 theta x (theta x arm) on the columns: Q. Collective.
+/// Sum of weight/2 theta x (theta x arm) on the columns: Q. Empty where only round-off is left of it, as of an edge
+/// whose nodes follow the one in its middle. Collective.
 std::vector<Eigen::MatrixXd> second_order(const fem::Mesh& mesh, const std::vector<Moved>& moved,
                                           Eigen::Index columns) {
   int any = std::any_of(moved.begin(), moved.end(), [](const Moved& each) { return each.independent_node >= 0; });
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
   if (!any) return {};
   std::vector<Eigen::MatrixXd> Q(3, Eigen::MatrixXd::Zero(columns, columns));
+  double terms = 0, found = 0;
+  for (const Moved& each : moved)
+    if (each.independent_node >= 0) terms += each.at.weight * each.arm.norm() * each.rotation.squaredNorm();
+  MPI_Allreduce(MPI_IN_PLACE, &terms, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
   for (int a = 0; a < 3; ++a) {
     for (const Moved& each : moved)
       if (each.independent_node >= 0)
         Q[a] += each.at.weight * each.rotation.transpose() * math::arm_form(Eigen::Vector3d::Unit(a), each.arm) *
                 each.rotation;
     MPI_Allreduce(MPI_IN_PLACE, Q[a].data(), static_cast<int>(Q[a].size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+    found = std::max(found, Q[a].norm());
   }
+  if (found <= 1e-13 * terms) return {};
   return Q;
 }
 

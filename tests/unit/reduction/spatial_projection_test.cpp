@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "bodies_in_space.h"
+#include "floe/reduction/place_set.h"
 
 using namespace floe;
 using Eigen::MatrixXd;
@@ -146,6 +147,26 @@ TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place 
     CHECK(place.S == V.middleRows(6 * original, 3));
     CHECK(place.psi == V.middleRows(6 * original + 3, 3));
   }
+}
+
+// The second-order displacements of the nodes of an edge cancel but for round-off where their arms do.
+TEST_CASE("the mean of a rigid edge about its middle has no second-order displacement, that of a part has one") {
+  const generate::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 4, 4};
+  const mesh::RawMesh raw = generate::plate(PETSC_COMM_WORLD, plate);
+  SpatiallyConstrained constrained(
+      {fem::mesh_of(raw, testing::ranks_of(raw, Spread::shuffled), {{4, 14}, {9, 14}, {19, 14}, {24, 14}}),
+       {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})},
+       fem::MembraneStrain::averaged},
+      Kind::clamped, {0, 5, 10, 15, 20});
+  const reduction::Basis basis = constrained.basis(3);
+  const auto map_of = [&](const std::vector<PetscInt>& originals) {
+    std::vector<reduction::WeightedNode> nodes;
+    for (const PetscInt node : fem::global_nodes(constrained.structure.mesh, originals))
+      nodes.push_back({node, 1.0 / static_cast<double>(originals.size())});
+    return reduction::place_map(constrained.structure, basis, nodes);
+  };
+  CHECK(map_of({4, 9, 14, 19, 24}).Q.empty());
+  REQUIRE(map_of({14, 19}).Q.size() == 3);
 }
 
 TEST_CASE("strains of second order: loads of derivatives are those of the elements, one by one") {
