@@ -95,7 +95,7 @@ std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_all(int j) {
       moments.places[side].x0.setZero();
       for (PlacedJoint* one : {&forces, &moments}) one->places[side].psi.setZero();
     }
-    for (dynamics::SpatialMarker& at : moments.places) at.Q.clear(), at.arm.setZero();
+    for (dynamics::SpatialMarker& at : moments.places) at.Q = {}, at.arm.setZero();
     all.push_back(std::move(forces));
     all.push_back(std::move(moments));
   }

@@ -42,7 +42,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     if (place.rigid_arm())
       at.arm = place.averaging_weights.front().lead;
     else
-      at.Q = map.Q;
+      at.Q = map.Q, at.Q.factor();
     return at;
   }
   if (!sees_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
@@ -52,6 +52,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   const auto holds = [&](PetscInt dof) {
     return std::binary_search(constrained(place.body).begin(), constrained(place.body).end(), dof);
   };
+  std::vector<Eigen::MatrixXd> Q;
   for (Eigen::Index i = 0; i < n; ++i) {
     const AveragingWeight& weight = place.averaging_weights[i];
     for (int d = 0; d < 6; ++d) {
@@ -67,12 +68,13 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     }
     if (place.rigid_arm()) at.arm = weight.lead;
     if (place.rigid_arm() || weight.lead.isZero(0)) continue;
-    if (at.Q.empty()) at.Q.assign(3, Eigen::MatrixXd::Zero(6 * n, 6 * n));
+    if (Q.empty()) Q.assign(3, Eigen::MatrixXd::Zero(6 * n, 6 * n));
     Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
     for (int d = 0; d < 3; ++d) free(d, d) = holds(6 * weight.node + 3 + d) ? 0 : 1;
     for (int a = 0; a < 3; ++a)
-      at.Q[a].block<3, 3>(6 * i + 3, 6 * i + 3) = free * math::arm_form(Eigen::Vector3d::Unit(a), weight.lead) * free;
+      Q[a].block<3, 3>(6 * i + 3, 6 * i + 3) = free * math::arm_form(Eigen::Vector3d::Unit(a), weight.lead) * free;
   }
+  at.Q = std::move(Q);
   return at;
 }
 
@@ -91,7 +93,7 @@ SpatialMarker SpatialAssembly::density_marker(int b, const body::Inertia& inerti
   marker.coordinates = coordinates_of(b);
   marker.mass = inertia.m;
   marker.x0 = inertia.s0;
-  marker.S = inertia.S, marker.Q = inertia.Q;
+  marker.S = inertia.S, marker.Q = inertia.Q, marker.Q.factor();
   marker.psi = Eigen::Matrix3Xd::Zero(3, inertia.S.cols());
   return marker;
 }

@@ -52,9 +52,9 @@ void set_rates(const SpatialInertia& in, const Eigen::VectorXd& q, const Eigen::
   add_products(in, 0, work.e, work.products, work.of_e);
   add_products(in, skew ? in.symmetric : 0, work.ed, work.products, work.of_ed);
   if (in.Q.empty()) return;
-  math::multiply_forms(in.Q, work.e, work.S);
+  in.Q.multiply(work.e, work.S);
   work.S += in.S;
-  math::multiply_forms(in.Q, work.ed, work.Qed);
+  in.Q.multiply(work.ed, work.Qed);
 }
 
 /// S(e).
@@ -137,7 +137,7 @@ void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d
 void add_arms(const SpatialInertia& in, const Matrix3d& A, const Vector3d& u, const Vector3d& w, double wq, double wv,
               SpatialInertiaWork& work, Eigen::MatrixXd& tangent) {
   const Index k = in.S.cols();
-  math::multiply_forms(in.Q, work.edd, work.Qedd);
+  in.Q.multiply(work.edd, work.Qedd);
   tangent.topRightCorner(3, k) += A * (wq * (2 * math::skew(w) * work.Qed + work.Qedd) + 2 * wv * work.Qed);
   for (int a = 0; a < 3; ++a) tangent.bottomRightCorner(k, k) += wq * u[a] * in.Q[a];
 }

@@ -1,7 +1,5 @@
 #include "floe/dynamics/spatial_marker.h"
 
-#include "floe/math/matrix_vector.h"
-
 namespace floe::dynamics {
 namespace {
 
@@ -81,7 +79,7 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   out.c = marker.x0 + e.u, out.beta = e.rotation, out.G = Matrix3d::Identity();
   if (!marker.Q.empty()) {
     const Eigen::VectorXd own = q.segment(marker.framed() ? 6 : 0, marker.S.cols());
-    math::multiply_forms(marker.Q, own, out.S);
+    marker.Q.multiply(own, out.S);
     out.c += 0.5 * out.S * own;
     out.S += marker.S;
   }
@@ -109,7 +107,7 @@ void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eig
   Elastic edd = elastic(marker, directions(marker, out), a);
   if (!marker.Q.empty()) {
     const Eigen::VectorXd own = v.segment(marker.framed() ? 6 : 0, marker.S.cols());
-    math::multiply_forms(marker.Q, own, out.Qed);
+    marker.Q.multiply(own, out.Qed);
     edd.u += out.Qed * own;
   }
   out.omega = w, out.beta_rate = ed.rotation;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "floe/body/inertia.h"
+#include "floe/math/symmetric_forms.h"
 
 namespace floe::body {
 
@@ -21,7 +22,7 @@ struct SpatialInertia {
   Eigen::Vector3d s0 = Eigen::Vector3d::Zero();
   Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();  ///< J at e = 0, about the frame's origin
   Eigen::Matrix3Xd S;
-  std::vector<Eigen::MatrixXd> Q;                   ///< x, y, z; empty: zero
+  math::SymmetricForms Q;                           ///< x, y, z; empty: zero
   Eigen::Matrix<double, Eigen::Dynamic, 9> linear;  ///< k x (J_xx J_yy J_zz J_yz J_zx J_xy G_x G_y G_z), d/de at e = 0
   Eigen::MatrixXd M;                                ///< M_xx + M_yy + M_zz
   Eigen::MatrixXd forms;                            ///< k x (k n): the n of D, E, B, Y that do not vanish side by side

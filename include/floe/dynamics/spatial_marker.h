@@ -4,6 +4,7 @@
 
 #include "floe/dynamics/attitude.h"
 #include "floe/dynamics/marker.h"
+#include "floe/math/symmetric_forms.h"
 
 namespace floe::dynamics {
 
@@ -27,7 +28,7 @@ struct SpatialMarker {
   Eigen::Vector3d x0 = Eigen::Vector3d::Zero();         ///< place in the undeformed body
   Eigen::Matrix3d D0 = Eigen::Matrix3d::Identity();     ///< axes of the place there
   Eigen::Matrix3Xd S = Eigen::Matrix3Xd::Zero(3, 0);    ///< displacement of each elastic coordinate, 3 x k
-  std::vector<Eigen::MatrixXd> Q = {};                  ///< of second order: x, y, z, symmetric; empty: zero
+  math::SymmetricForms Q = {};                          ///< of second order: x, y, z, symmetric; empty: zero
   Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its rotation, 3 x k
   std::vector<Eigen::Matrix3d> H = {};                  ///< of its second order: x, y, z, symmetric; empty: zero
   /// From a node to the place that follows it rigidly; its first order, -~arm psi, is in S.

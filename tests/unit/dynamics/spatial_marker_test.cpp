@@ -27,10 +27,12 @@ std::vector<SpatialMarker> markers() {
     turned.H.emplace_back(form + form.transpose());
   }
   SpatialMarker curved = weighted, at_arm = turned, still = testing::still_marker(random, 0, 3);
+  std::vector<MatrixXd> forms;
   for (int a = 0; a < 3; ++a) {
     const Matrix3d form = random.matrix(3, 3);
-    curved.Q.emplace_back(form + form.transpose());
+    forms.emplace_back(form + form.transpose());
   }
+  curved.Q = forms;
   at_arm.arm = {0.7, -0.4, 1.1}, still.arm = {0.2, 0.9, -0.3};
   SpatialMarker all = curved;
   all.H = turned.H, all.arm = at_arm.arm;
