@@ -224,16 +224,13 @@ void SpatialAssembly::add_body(int b) {
     auto damping =
         damping_terms(plan_, b, reduced, {coordinates.end() - reduced.body.coordinates(), coordinates.end()});
     if (!owner_) return;
-    const body::Inertia& in = reduced.body.inertia;
-    if (!slot.still) {
-      body::SpatialInertia inertia = body::spatial(in);
-      inertia.Q.factor();
+    body::SpatialInertia inertia = body::spatial(reduced.body.inertia);
+    inertia.Q.factor();
+    if (slot.still && reduced.body.coordinates() > 0)
+      terms_.push_back(std::make_unique<dynamics::FixedFrameBody>(coordinates, inertia.M, reduced.body.elasticity));
+    if (!slot.still)
       terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates, slot.attitude, std::move(inertia),
                                                                reduced.body.elasticity));
-    } else if (reduced.body.coordinates() > 0) {
-      terms_.push_back(std::make_unique<dynamics::FixedFrameBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
-                                                                  reduced.body.elasticity));
-    }
     std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
     return;
   }
