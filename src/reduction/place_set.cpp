@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
@@ -46,7 +47,7 @@ std::vector<Eigen::MatrixXd> second_order(const fem::Mesh& mesh, const std::vect
   std::vector<Eigen::MatrixXd> Q(3, Eigen::MatrixXd::Zero(columns, columns));
   double terms = 0, found = 0;
   for (const Moved& each : moved)
-    if (each.independent_node >= 0) terms += each.at.weight * each.arm.norm() * each.rotation.squaredNorm();
+    if (each.independent_node >= 0) terms += std::abs(each.at.weight) * each.arm.norm() * each.rotation.squaredNorm();
   MPI_Allreduce(MPI_IN_PLACE, &terms, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
   for (int a = 0; a < 3; ++a) {
     for (const Moved& each : moved)

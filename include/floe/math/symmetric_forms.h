@@ -8,7 +8,7 @@ namespace floe::math {
 
 /// Symmetric matrices Q_a, k x k: a displacement 1/2 Q_a(x, x) of each axis. Those of a few rotations in many
 /// coordinates, such as of rigid regions, have a low rank r, and products by their factors Q_a = B' C_a B, B r x k,
-/// take k (n + 1) r instead of n k^2 operations.
+/// take k (n + 1) r + n r^2 instead of n k^2 operations.
 class SymmetricForms {
  public:
   SymmetricForms() = default;
@@ -18,7 +18,7 @@ class SymmetricForms {
   std::size_t size() const { return Q_.size(); }
   const Eigen::MatrixXd& operator[](std::size_t a) const { return Q_[a]; }
 
-  /// Finds factors where products by them take less than a quarter of the operations: for forms that are multiplied
+  /// Finds factors where products by them take about a quarter of the operations or less: for forms that are multiplied
   /// often. To round-off the products are the same.
   void factor();
   /// r, or 0 without factors.

@@ -135,6 +135,6 @@ TEST_CASE("strips of elements as on a surface that rises by any number of thickn
     const double deflection = load.dot(q) / (4000 + 10 * 2.6 * 1.2);
     CAPTURE(across, aspect, rise, deflection);
     CHECK(deflection > (rise <= 3 ? least_to_three : least));
-    CHECK(deflection < most);
+    CHECK(deflection < (rise <= 3 ? std::min(most, 1.06) : most));
   }
 }
