@@ -48,7 +48,7 @@ Matrix12 rod_rotations(const BeamPlace& place, const SpatialBeamSection& section
   }
   if (releases[3] || releases[9]) rows(4, 3) = 1, rows(4, 9) = -1;
   const Eigen::Matrix<double, 5, 12> own = rows * axes_of(place);
-  return 1e-12 * section.EA * length * own.transpose() * own;
+  return 1e-10 * section.EA * length * own.transpose() * own;
 }
 
 }  // namespace floe::fem

@@ -96,18 +96,16 @@ ReferenceFrame constrained_frame(const Structure& structure, const Conditions& d
   ReferenceFrame frame;
   frame.kind = ReferenceFrame::Kind::clamped;
   frame.rigid = rigid_motions(structure);
-  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, dofs, extent(structure));
-  Eigen::MatrixXd chosen(0, rows.cols());
-  for (Eigen::Index i = 0; i < rows.rows() && chosen.rows() < rows.cols(); ++i) {
-    Eigen::MatrixXd more(chosen.rows() + 1, rows.cols());
-    more << chosen, rows.row(i);
-    if (rank_of(more) < more.rows()) continue;
-    chosen = std::move(more);
-    frame.conditions.push_back(dofs[i]);
-  }
+  constexpr double last = 1e-3;  // rotations of pins and about normals of shells are soft: displacements come first
+  Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, dofs, extent(structure));
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    if (dofs[i] % structure.dofs_per_node >= structure.dimension()) rows.row(static_cast<Eigen::Index>(i)) *= last;
+  if (rank_of(rows) < rows.cols()) throw InputError("the frame's conditions leave a rigid motion of the body free");
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> most_independent(rows.transpose());
+  for (Eigen::Index i = 0; i < rows.cols(); ++i)
+    frame.conditions.push_back(dofs[most_independent.colsPermutation().indices()[i]]);
   std::sort(frame.conditions.begin(), frame.conditions.end());
   for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
-  if (chosen.rows() < rows.cols()) throw InputError("the frame's conditions leave a rigid motion of the body free");
   set_inverse(structure, frame);
   return frame;
 }

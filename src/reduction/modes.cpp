@@ -219,11 +219,20 @@ PetscInt ModeSolver::available() const {
 }
 
 Modes ModeSolver::solve(int count) {
-  Modes modes;
-  if (count <= 0) return modes;
+  if (count <= 0) return {};
   if (count > available())
     throw InputError(
         fmt::format("{} modes requested of a body that has {} elastic dofs under its conditions", count, available()));
+  try {
+    return found(count);
+  } catch (const petsc::Error& error) {
+    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    throw too_fine(structure_, "its modes do not converge");
+  }
+}
+
+Modes ModeSolver::found(int count) {
+  Modes modes;
   if (!eps_) create(std::min<int>(count + 1, static_cast<int>(available())));
   const petsc::Stage stage("modes");
   const Transformation inverse(eps_, statics_, holding_.constrained);
@@ -237,15 +246,10 @@ Modes ModeSolver::solve(int count) {
                           static_cast<int>(available()),
                           finds_lowest(eps_, shift_),
                           !inverse.ksp};
-  Found found = lowest_pairs(search, M_, count);
+  Found pairs = lowest_pairs(search, M_, count);
   std::vector<double> errors;
-  try {
-    if (inverse.ksp) errors = purify(inverse, M_, holding_.constrained, found);
-  } catch (const petsc::Error& error) {
-    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
-    throw too_fine(structure_, "its modes do not converge");
-  }
-  modes.raw = std::move(found.raw);
+  if (inverse.ksp) errors = purify(inverse, M_, holding_.constrained, pairs);
+  modes.raw = std::move(pairs.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
   std::vector<double> lambda =
       exact_values(*statics_.elements(), M_, shares && statics_.refines() && !statics_.iterates(), modes.raw);
@@ -268,15 +272,15 @@ Modes ModeSolver::solve(int count) {
   else if (inverse.ksp)
     modes.residual = residuals(inverse, exact_, M_, holding_.constrained, modes.raw, lambda);
   else
-    modes.residual.assign(found.error.begin(), found.error.begin() + count);
+    modes.residual.assign(pairs.error.begin(), pairs.error.begin() + count);
   for (int i = 0; i < count; ++i) {
-    if (modes.residual[i] <= 1e-2 || std::abs(found.lambda[i] / lambda[i] - 1) <= 1e-3) continue;
+    if (modes.residual[i] <= 1e-2 || std::abs(pairs.lambda[i] / lambda[i] - 1) <= 1e-3) continue;
     if (!statics_.refines())
       throw RunError(
           fmt::format("mode {} of {} is indistinguishable from massless motions; ask for fewer modes", i + 1, count));
     throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
-                                           std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
-                                           std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));
+                                           std::sqrt(std::min(lambda[i], std::abs(pairs.lambda[i]))),
+                                           std::sqrt(std::max(lambda[i], std::abs(pairs.lambda[i])))));
   }
   return modes;
 }

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "eigenvalues.h"
+#include "floe/assess/body_properties.h"
 #include "spatial_scenes.h"
 
 using namespace floe;
@@ -11,28 +12,35 @@ namespace {
 
 constexpr double E = 7e10, A = 1e-4, rho = 2700;
 
-/// A tower of so many bays of 1 m: four legs, frames and diagonals of rods between pins.
+/// A tower of so many bays: four legs, frames and diagonals of rods between pins. One that is crossed has both
+/// diagonals of each square, and no frame at its feet.
 struct Tower {
-  explicit Tower(int bays) {
+  explicit Tower(int bays, double width = 1, double height = 1, bool crossed = false) {
     for (int bay = 0; bay <= bays; ++bay)
-      for (const auto& [x, y] : {std::pair{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}}) grids.emplace_back(x, y, bay);
-    rods = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
+      for (const auto& [x, y] : {std::pair{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}})
+        grids.emplace_back(width * x, width * y, height * bay);
+    if (!crossed) rods = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
     for (int foot = 0; foot < 4 * bays; foot += 4) {
       for (int i = 0; i < 4; ++i) {
         const int next = (i + 1) % 4;
         rods.insert(rods.end(),
                     {{foot + i, foot + 4 + i}, {foot + 4 + i, foot + 4 + next}, {foot + i, foot + 4 + next}});
+        if (crossed) rods.emplace_back(foot + next, foot + 4 + i);
       }
       rods.emplace_back(foot + 4, foot + 6);
+      if (crossed) rods.emplace_back(foot + 5, foot + 7);
     }
   }
-  /// J: of each rod [m^4].
-  std::string deck(const std::string& J) const {
+  /// J: of each rod [m^4]. The grids of `from_top` have their numbers from the highest on.
+  std::string deck(const std::string& J, bool from_top = false) const {
     std::string text = "BEGIN BULK\nPROD,1,1,1.-4," + J + "\nMAT1,1,7.+10,,.3,2700.\n";
-    for (std::size_t i = 0; i < grids.size(); ++i)
-      text += fmt::format("GRID,{},,{:.1f},{:.1f},{:.1f}\n", i + 1, grids[i].x(), grids[i].y(), grids[i].z());
+    const auto number = [&](std::size_t i) { return (from_top ? grids.size() - 4 - i / 4 * 4 + i % 4 : i) + 1; };
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      const Eigen::Vector3d& x = grids[number(i) - 1];
+      text += fmt::format("GRID,{},,{:.1f},{:.1f},{:.1f}\n", i + 1, x.x(), x.y(), x.z());
+    }
     for (std::size_t i = 0; i < rods.size(); ++i)
-      text += fmt::format("CROD,{},1,{},{}\n", i + 1, rods[i].first + 1, rods[i].second + 1);
+      text += fmt::format("CROD,{},1,{},{}\n", i + 1, number(rods[i].first), number(rods[i].second));
     return text + "ENDDATA\n";
   }
   /// Of bars between pins, with consistent mass.
@@ -105,5 +113,33 @@ TEST_CASE("a tower of rods gives way to a force as bars between pins, in every f
     const Eigen::Vector3d moved(tip[0], tip[1], tip[2]);
     INFO(name_of(formulation) << ": " << moved.transpose() << ", expected " << expected.transpose());
     CHECK((moved - expected).norm() < 1e-4 * expected.norm());  // of second order
+  }
+}
+
+// The dimensions of the tower of 72 bars of Haftka & Guerdal, Elements of structural optimization, 3rd ed., ch. 6.
+TEST_CASE("a tower whose supports hold the rotations of its pins has the frequencies of bars, free and standing") {
+  const Scratch scratch;
+  const Tower tower(4, 120, 60, true);
+  REQUIRE(tower.rods.size() == 72);
+  const std::string deck = (scratch.path / "tower.bdf").string();
+  write_text(deck, tower.deck("", true));
+  std::string text = "bodies: {b: {mesh: {file: {path: " + deck + "}}, reduction: {modes: 8}}}\njoints:\n";
+  for (std::size_t i = 0; i < tower.grids.size(); ++i)
+    text += fmt::format("  s{}: {{type: support, between: [ground, {{body: b, node: [{}, {}, {}]}}], hold: [{}]}}\n", i,
+                        tower.grids[i].x(), tower.grids[i].y(), tower.grids[i].z(), i < 4 ? "x, y, z" : "rx, ry, rz");
+  const auto [K, M] = tower.matrices();
+  const auto omega = [](const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass, Eigen::Index first) {
+    const Eigen::VectorXd lambda = testing::eigenvalues(stiffness, mass);
+    return Eigen::VectorXd(lambda.segment(first, 8).cwiseSqrt());
+  };
+  const Eigen::VectorXd free = omega(K, M, 6),
+                        standing_still = omega(K.bottomRightCorner(48, 48), M.bottomRightCorner(48, 48), 0);
+  const auto found = assess::body_properties(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD, 8).at(0);
+  REQUIRE(found.free.size() == 8);
+  REQUIRE(found.constrained.size() == 8);
+  for (int i = 0; i < 8; ++i) {
+    INFO("mode " << i + 1);
+    CHECK(found.free[i] == Approx(free[i]).epsilon(1e-7));
+    CHECK(found.constrained[i] == Approx(standing_still[i]).epsilon(1e-6));
   }
 }

@@ -18,7 +18,7 @@ using BeamReleases = std::bitset<12>;
 Matrix12 released(const BeamPlace& place, const SpatialBeamSection& section, const BeamReleases& releases);
 
 /// Stiffness of a rod whose ends are alone (at nodes that rods alone hold) against rotations of these nodes relative to
-/// its line, and about it where its torsion is released: 1e-12 EA l per radian. Neither loads nor mass act on these
+/// its line, and about it where its torsion is released: 1e-10 EA l per radian. Neither loads nor mass act on these
 /// rotations: they follow the rods. Rigid motions have no energy.
 Matrix12 rod_rotations(const BeamPlace& place, const SpatialBeamSection& section, const BeamReleases& releases,
                        std::bitset<2> alone);

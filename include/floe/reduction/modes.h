@@ -40,6 +40,7 @@ class ModeSolver {
 
  private:
   void create(int count);
+  Modes found(int count);
   const fem::Structure& structure_;
   const fem::ReferenceFrame& frame_;
   const fem::Holding& holding_;
