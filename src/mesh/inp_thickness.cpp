@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "corner_thickness.h"
 #include "deck_file.h"
 #include "floe/mesh/labels.h"
 #include "floe/petsc/all_ranks.h"
@@ -44,7 +45,7 @@ std::vector<Given> given_thicknesses(MPI_Comm comm, InpReading& reading) {
 /// A part and the thickness of an element of it.
 struct Variant {
   int part;
-  double thickness;
+  CornerThickness thickness;
   auto operator<=>(const Variant&) const = default;
 };
 
@@ -63,22 +64,22 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
   const auto section_of = [&](int part) {
     return std::find_if(sections.begin(), sections.end(), [&](const auto& s) { return s.number == part; });
   };
-  std::vector<Variant> mine(mesh.cells.size(), {-1, 0});
+  std::vector<Variant> mine(mesh.cells.size(), {-1, {0}});
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& cell = mesh.cells[c];
     const auto section = section_of(cell.part);
     const bool asked = std::count(reading.nodal.begin(), reading.nodal.end(), cell.part) > 0;
     if (section == sections.end() || section->plies.size() != 1 || !asked) continue;
-    double sum = 0;
+    std::vector<double> corners;
     bool any = false;
-    for (int i = 0; i < node_count(cell.kind); ++i) {
+    for (int i = 0; i < corner_count(cell.kind); ++i) {
       const auto at = std::lower_bound(given.begin(), given.end(), cell.nodes[i],
                                        [](const Given& g, long long label) { return g.label < label; });
       const bool has = at != given.end() && at->label == cell.nodes[i];
       any = any || has;
-      sum += has ? at->value : section->plies[0].thickness;
+      corners.push_back(has ? at->value : section->plies[0].thickness);
     }
-    if (any) mine[c] = {cell.part, sum / node_count(cell.kind)};
+    if (any) mine[c] = {cell.part, corner_thickness(corners)};
   }
   std::vector<Variant> own;
   long long elements = 0;
@@ -94,7 +95,8 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
   for (const auto& variant : variants) {
     ShellSection section = *section_of(variant.part);
     section.number = static_cast<int>(mesh.parts.size());
-    section.plies[0].thickness = variant.thickness;
+    section.plies[0].thickness = variant.thickness.mean;
+    section.taper = variant.thickness.taper;
     mesh.parts.push_back(std::string(mesh.parts[variant.part]));
     sections.push_back(std::move(section));
   }
@@ -104,7 +106,8 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
           first + static_cast<int>(std::lower_bound(variants.begin(), variants.end(), mine[c]) - variants.begin());
   reading.notices.push_back(reading.faults.text_of(reading.thicknesses.front().where) +
                             ": *NODAL THICKNESS: " + counted(elements, "shell") +
-                            " with the mean thickness of the nodes, " + std::to_string(variants.size()) + " different");
+                            " with the mean thickness of the corners (in bending of its cube), " +
+                            std::to_string(variants.size()) + " different");
 }
 
 }  // namespace floe::mesh

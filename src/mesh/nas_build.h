@@ -1,4 +1,5 @@
 #pragma once
+#include "corner_thickness.h"
 #include "file_mesh.h"
 #include "nas_reading.h"
 
@@ -19,7 +20,7 @@ class NasBuild {
 
  private:
   /// What makes elements of one property different parts.
-  using Variant = std::array<double, 5>;
+  using Variant = std::array<double, 6>;
 
   /// A node at the end of a beam with an offset.
   struct Extra {
@@ -77,7 +78,8 @@ class NasBuild {
   std::string named_material(const NasMaterial& of, double extra_density, const std::string& property);
   bool has_axes(const NasShellProperty& property) const;
   Eigen::Vector3d axis_of(const NasShell& shell);
-  void add_shell_section(const NasShell& shell, const NasShellProperty& property, double thickness,
+  static CornerThickness thickness_of(const NasShell& shell, const NasShellProperty& property);
+  void add_shell_section(const NasShell& shell, const NasShellProperty& property, const CornerThickness& own,
                          const Eigen::Vector3d& axis, int part);
   long long end_of(const NasBeam& beam, const NasGrid& grid, const Eigen::Vector3d& offset, const Eigen::Vector3d& x);
   /// The grids of a beam and where they are.

@@ -131,9 +131,23 @@ std::string NasBuild::named_material(const NasMaterial& of, double extra_density
   return material.name;
 }
 
-void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& property, double thickness,
+/// Its own, where it has any and the property is not one of plies.
+CornerThickness NasBuild::thickness_of(const NasShell& shell, const NasShellProperty& property) {
+  const double given = property.plies.front().thickness;
+  if (!shell.has_thickness() || property.plies.size() != 1) return {given};
+  std::array<double, 4> corners{};
+  for (int i = 0; i < shell.count; ++i)
+    corners[i] = !shell.thicknesses[i] ? given : shell.ratio ? given * *shell.thicknesses[i] : *shell.thicknesses[i];
+  const std::span<const double> own(corners.data(), shell.count);
+  if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0; })) return {given};
+  return corner_thickness(own);
+}
+
+void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& property, const CornerThickness& own,
                                  const Eigen::Vector3d& axis, int part) {
+  const double thickness = own.mean;
   ShellSection section;
+  section.taper = own.taper;
   section.part = property.name;
   section.number = part;
   double total = 0;
@@ -141,8 +155,8 @@ void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& 
   for (const NasPly& ply : property.plies) {
     const NasMaterial* found = material(ply.material, property.where, property.name);
     if (!found) return;
-    const bool one = property.plies.size() == 1, own = one && thickness != total;  // the element's T1 to T4
-    const std::string with = own ? fmt::format("{}, thickness {:.9g}", property.name, thickness) : property.name;
+    const bool one = property.plies.size() == 1, differs = one && thickness != total;  // the element's T1 to T4
+    const std::string with = differs ? fmt::format("{}, thickness {:.9g}", property.name, thickness) : property.name;
     section.plies.push_back(
         {one ? thickness : ply.thickness,
          named_material(*found, property.extra * model_.mass_factor / (one ? thickness : total), with), "", ply.angle});
@@ -173,16 +187,15 @@ void NasBuild::add_shells() {
                                            : (shell.quadratic ? CellKind::quadrilateral8 : CellKind::quadrilateral);
     int part = -1;
     if (own) {
-      double thickness = own->plies.front().thickness;
-      if (shell.thickness > 0 && own->plies.size() == 1)
-        thickness = shell.ratio ? thickness * shell.thickness : shell.thickness;
+      const CornerThickness thickness = thickness_of(shell, *own);
       Eigen::Vector3d axis = Eigen::Vector3d::Zero();
       if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
-      part = part_of(shell.property, {thickness, shell.offset, axis[0], axis[1], axis[2]}, own->name, [&](int number) {
-        if (!replaced(own->name)) add_shell_section(shell, *own, thickness, axis, number);
-      });
+      part = part_of(shell.property, {thickness.mean, thickness.taper, shell.offset, axis[0], axis[1], axis[2]},
+                     own->name, [&](int number) {
+                       if (!replaced(own->name)) add_shell_section(shell, *own, thickness, axis, number);
+                     });
     } else if (scene_has_sections()) {
-      const bool plain = shell.offset == 0 && !(shell.thickness > 0);
+      const bool plain = shell.offset == 0 && !shell.has_thickness();
       part = part_of_scene(kind, shell.property, shell.id, plain, shell.where);
     }
     if (part < 0) continue;

@@ -40,7 +40,7 @@ void read_axes(NasReader& r) {
 void read_shell(NasReader& r) {
   const bool four = r.card.card.name.starts_with("CQUAD");
   NasShell shell{
-      r.card.integer(0, "the element's number"), 0, {-1, -1, -1, -1}, four ? 4 : 3, 0, -1, 0, 0, false, r.where()};
+      r.card.integer(0, "the element's number"), 0, {-1, -1, -1, -1}, four ? 4 : 3, 0, -1, 0, {}, false, r.where()};
   shell.property = r.card.card.blank(1) ? shell.id : r.card.integer(1, "a property");
   for (int i = 0; i < shell.count; ++i) shell.nodes[i] = r.card.integer(2 + i, "a grid");
   shell.quadratic = r.card.card.name == "CQUAD8" || r.card.card.name == "CTRIA6";
@@ -53,15 +53,14 @@ void read_shell(NasReader& r) {
     shell.angle = r.card.real(after, "an angle (THETA) or axes (MCID)", 0);
   shell.offset = r.card.real(after + 1, "an offset (ZOFFS)", 0);
   shell.ratio = r.card.integer(!shell.quadratic ? 9 : four ? 16 : 13, "0 or 1 (TFLAG)", 0) == 1;
-  int given = 0;
   for (int i = 0; i < shell.count; ++i) {
-    given += !r.card.card.blank(10 + i);
-    shell.thickness += r.card.real(10 + i, "a thickness", 0) / shell.count;
+    if (r.card.card.blank(10 + i)) continue;
+    shell.thicknesses[i] = r.card.real(10 + i, "a thickness");
+    if (*shell.thicknesses[i] < 0) r.card.refuse(10 + i, "expects a thickness that is not negative");
   }
-  if (given > 0 && given < shell.count)
-    r.card.refuse(10, "to " + std::to_string(10 + shell.count + 3) + ": expected a thickness at each grid, or at none");
-  if (given > 0) r.count_ignored("corner thicknesses");
-  if (shell.thickness < 0) r.card.refuse(10, "expects thicknesses greater than 0");
+  if (std::any_of(shell.thicknesses.begin(), shell.thicknesses.begin() + shell.count,
+                  [&](const auto& t) { return t != shell.thicknesses[0]; }))
+    r.count_ignored("variation of corner thicknesses");
   if (r.card.good()) r.model.shells.push_back(shell);
 }
 

@@ -203,7 +203,7 @@ std::string nas_reason(const std::string& name) {
        "material"},
       {"MAT1 G", "shells take E and nu, beams E and G, which differ by more than 1 % from E = 2 G (1 + nu)"},
       {"GE", "damping is that of the scene"},
-      {"corner thicknesses", "a shell has their mean"},
+      {"variation of corner thicknesses", "a shell has their mean, and bends by the mean of the cubes"},
       {"PBEAM S1, S2", "shear forces of beams are not relieved by taper"},
       {"PBEAM NSI", "the nonstructural mass is spread over the section"},
       {"PBEAM CW", "beams have no warping stiffness"},

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <map>
 #include <unordered_map>
@@ -20,15 +21,18 @@ struct NasGrid {
 struct NasShell {
   long long id, property;
   std::array<long long, 4> nodes;
-  int count;         // of its nodes
-  double angle;      // THETA [deg], where axes is -1
-  long long axes;    // MCID; -1: none
-  double offset;     // ZOFFS
-  double thickness;  // mean of T1..T4; 0: that of the property
-  bool ratio;        // of the property's thickness
+  int count;                                         // of its corners
+  double angle;                                      // THETA [deg], where axes is -1
+  long long axes;                                    // MCID; -1: none
+  double offset;                                     // ZOFFS
+  std::array<std::optional<double>, 4> thicknesses;  // T1..T4; none: that of the property
+  bool ratio;                                        // of the property's thickness
   Where where;
   std::array<long long, 4> middles{-1, -1, -1, -1};  // of its edges from each corner to the next; of second order alone
   bool quadratic = false;
+  bool has_thickness() const {
+    return std::any_of(thicknesses.begin(), thicknesses.end(), [](const auto& t) { return t.has_value(); });
+  }
 };
 
 struct NasBeam {

@@ -121,6 +121,8 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
     deck.parts[section.number] = shell;
     deck.points[section.number] = {fem::shell_layers(plies, -section.offset * thickness)};
     if (section.bending) bend(reader, section, plies, deck);
+    auto& own = std::get<fem::ShellSection>(deck.parts[section.number]);
+    own.bending *= section.taper, own.mass_radius *= std::sqrt(section.taper);
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), thickness});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());

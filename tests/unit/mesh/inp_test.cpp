@@ -289,6 +289,8 @@ TEST_CASE("shells whose section asks for it take the mean of nodal thicknesses")
   REQUIRE(file.deck.shell_sections.size() == 2);
   CHECK(file.deck.shell_sections[1].number == 1);
   CHECK(file.deck.shell_sections[1].plies.at(0).thickness == Approx((1 + 1 + 3 + 5) / 4.));
+  // t = 2.5 + 1.5 x + 0.5 y + 0.5 xy: m^3 + m (a^2 + b^2 + c^2 / 3) + 2 abc / 3
+  CHECK(file.deck.shell_sections[1].taper == Approx(1 + (2.5 * (2.25 + 0.25 + 0.25 / 3) + 0.25) / 15.625));
   CHECK_THAT(file.notices.at(0), Contains("nodal.inp:21: *NODAL THICKNESS: 1 shell with the mean thickness"));
   for (const std::string wrong : {", 3", "6", "6, 0", "6, thick"})
     CHECK_THAT(testing::fault_of([&] { read(testing::written("nodal.inp", text + wrong + "\n")); }),

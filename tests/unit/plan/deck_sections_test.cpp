@@ -142,3 +142,20 @@ TEST_CASE("springs of a deck are cells of two nodes, one part for each set of co
   CHECK(file.mesh.cells[1].nodes[1] == 2);
   CHECK(std::get<fem::NodeSpring>(parts.at(file.mesh.cells[2].part)).stiffness[5] == 8);
 }
+
+TEST_CASE("a shell of varying thickness bends, and resists rotation, by the mean of its cubes") {
+  mesh::DeckFile file;
+  file.deck.materials = {{"M", mesh::Elasticity::isotropic, {2.6, 0.3}, 1}};
+  mesh::ShellSection own;
+  own.part = "S", own.number = 0, own.offset = 0.25, own.plies = {{0.1, "M", "", 0}};
+  file.deck.shell_sections = {own};
+  const auto shell = [&] { return std::get<fem::ShellSection>(plan::deck_sections(file).parts.at(0)); };
+  const fem::ShellSection even = shell();
+  file.deck.shell_sections[0].taper = 2;
+  const fem::ShellSection varying = shell();
+  CHECK(varying.A == even.A);
+  CHECK(varying.mass == even.mass);
+  CHECK(varying.coupling == even.coupling);
+  CHECK((varying.bending - 2 * even.bending).norm() < 1e-14 * even.bending.norm());
+  CHECK(varying.mass_radius * varying.mass_radius == Approx(2 * even.mass_radius * even.mass_radius));
+}
