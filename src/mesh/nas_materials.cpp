@@ -16,13 +16,14 @@ void read_mat1(NasReader& r) {
   if (card.blank(3) && !card.blank(2)) nu = e / (2 * g) - 1;
   if (card.blank(2)) g = e / (2 * (1 + nu));
   if (r.card.good() && !(e > 0 && g > 0)) r.card.refuse(1, "to 4 expect E and G greater than 0");
-  if (r.card.good() && !card.blank(3) && !(nu > -1 && nu <= 0.5))  // of E and G beams need no more
+  const bool of_shells = nu > -1 && nu <= 0.5;  // beams need no more than E and G
+  if (r.card.good() && !of_shells && (card.blank(1) || card.blank(2)))
     r.card.refuse(3, "expects nu between -1 and 1/2, found " + std::to_string(nu));
   if (found.material.density < 0) r.card.refuse(4, "expects a density that is not negative");
   if (r.card.real(7, "GE", 0) != 0) r.count_ignored("GE");
   found.material.constants = {e, nu};
   found.shear = g;
-  if (std::abs(2 * g * (1 + nu) / e - 1) > 0.01) r.count_ignored("MAT1 G");
+  if (of_shells && std::abs(2 * g * (1 + nu) / e - 1) > 0.01) r.count_ignored("MAT1 G");
   r.define(r.model.materials, id, std::move(found), "material");
 }
 

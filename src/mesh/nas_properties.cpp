@@ -63,8 +63,8 @@ void take_general(NasFields& card, NasBeamProperty& property, std::array<double,
     card.refuse_card("expects A greater than 0, I1, I2 and J not negative, and I12^2 less than I1 I2");
 }
 
-// C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of the stations of PBEAM, from a field on: y and z from the neutral axis. All
-// zero, which is also what blank fields are: none are known.
+// C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of the stations of PBEAM, from a field on: y and z from the axis of the element.
+// All zero, which is also what blank fields are: none are known.
 std::vector<Eigen::Vector2d> stress_points(NasFields& card, std::size_t first) {
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = first; i < first + 8; i += 2) {
@@ -93,7 +93,7 @@ void read_pbar(NasReader& r) {
 namespace {
 
 /// The line after the stations of PBEAM: K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), and the offsets after it.
-void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property) {
+void read_after_stations(NasReader& r, std::size_t at, bool has_added_mass, NasBeamProperty& property) {
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(at + i, "a shear factor", 1));
   constexpr const char* pairs[] = {"PBEAM S1, S2", "PBEAM NSI", "PBEAM CW"};
   for (std::size_t k = 0; k < std::size(pairs); ++k) {
@@ -102,11 +102,15 @@ void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property
     if (a != 0 || b != 0) r.count_ignored(pairs[k]);
   }
   for (int i = 8; i < 12; ++i)
-    if (r.card.real(at + i, "an offset of the mass", 0) != 0)
+    if (r.card.real(at + i, "an offset of the mass", 0) != 0 && has_added_mass)
       r.card.refuse(at + i, "is an offset of the nonstructural mass, which is not read");
-  for (int i = 12; i < 16; ++i)
-    if (r.card.real(at + i, "an offset of the neutral axis", 0) != 0)
-      r.card.refuse(at + i, "is an offset of the neutral axis, which is not read");
+  for (int i : {0, 1}) {
+    const double a = r.card.real(at + 12 + i, "an offset of the neutral axis", 0);
+    if (r.card.real(at + 14 + i, "an offset of the neutral axis", a) != a)
+      r.card.refuse(at + 14 + i, "is another offset of the neutral axis than at end A; expected the same");
+    if (a != 0) property.section.centroid = property.section.centroid.value_or(Eigen::Vector2d::Zero());
+    if (a != 0) (*property.section.centroid)[i] = a;
+  }
 }
 
 // Of what no piece carries the ends of the whole are released (torsion at A alone), and the constant that is 0 becomes
@@ -160,10 +164,12 @@ void read_pbeam(NasReader& r) {
     if (with_points) take_points(next + 8);
     next += with_points ? 16 : 8;
   }
-  read_after_stations(r, next, property);
   taper.complete(r.card);
-  if (!taper.varies()) property.section.fibres = points;
-  if (r.card.good() && taper.varies()) taper.divide(property, take), release_whole(r.card, property);
+  const bool varies = r.card.good() && taper.varies();
+  read_after_stations(r, next, at_a[5] != 0 || varies, property);
+  for (Eigen::Vector2d& point : points) point -= property.section.centroid.value_or(Eigen::Vector2d::Zero());
+  if (!varies) property.section.fibres = points;
+  if (r.card.good() && varies) taper.divide(property, take), release_whole(r.card, property);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 

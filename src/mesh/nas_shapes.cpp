@@ -13,9 +13,11 @@ struct Rectangle {
   double y, z, height, width;
 };
 
-/// A thin wall of an open section, whose length goes to the middle of the walls that it meets.
+/// A thin wall of an open section between points (y, z) on middle lines. It begins where an earlier one began or ended.
 struct Wall {
-  double length, thickness;
+  Eigen::Vector2d from, to;
+  double thickness;
+  Eigen::Vector2d along() const { return to - from; }
 };
 
 struct Outline {
@@ -27,55 +29,84 @@ using Dimensions = const std::vector<double>&;
 
 // d of the shapes as in the guides, y up, z to the right.
 Outline shape_i(Dimensions d) {
-  return {{{d[4] / 2, 0, d[4], d[1]},
-           {(d[0] + d[4] - d[5]) / 2, 0, d[0] - d[4] - d[5], d[3]},
-           {d[0] - d[5] / 2, 0, d[5], d[2]}},
-          {{d[1], d[4]}, {d[0] - (d[4] + d[5]) / 2, d[3]}, {d[2], d[5]}}};
+  const double low = d[4] / 2, high = d[0] - d[5] / 2;
+  return {{{low, 0, d[4], d[1]}, {(d[0] + d[4] - d[5]) / 2, 0, d[0] - d[4] - d[5], d[3]}, {high, 0, d[5], d[2]}},
+          {{{low, 0}, {high, 0}, d[3]},
+           {{low, 0}, {low, -d[1] / 2}, d[4]},
+           {{low, 0}, {low, d[1] / 2}, d[4]},
+           {{high, 0}, {high, -d[2] / 2}, d[5]},
+           {{high, 0}, {high, d[2] / 2}, d[5]}}};
 }
 Outline shape_i1(Dimensions d) {
   const double flange = (d[3] - d[2]) / 2;
   return shape_i({d[3], d[0] + d[1], d[0] + d[1], d[1], flange, flange});
 }
-Outline shape_t(Dimensions d) {
-  return {{{-d[2] / 2, 0, d[2], d[0]}, {-(d[1] + d[2]) / 2, 0, d[1] - d[2], d[3]}},
-          {{d[0], d[2]}, {d[1] - d[2] / 2, d[3]}}};
+/// A T or, where `up` is -1, one upside down.
+Outline tee(Dimensions d, double up) {
+  const double flange = -up * d[2] / 2;
+  return {{{flange, 0, d[2], d[0]}, {-up * (d[1] + d[2]) / 2, 0, d[1] - d[2], d[3]}},
+          {{{flange, 0}, {flange, -d[0] / 2}, d[2]},
+           {{flange, 0}, {flange, d[0] / 2}, d[2]},
+           {{flange, 0}, {-up * d[1], 0}, d[3]}}};
 }
+Outline shape_t(Dimensions d) { return tee(d, 1); }
+Outline shape_t2(Dimensions d) { return tee(d, -1); }
 Outline shape_t1(Dimensions d) {
-  return {{{0, d[2] / 2, d[0], d[2]}, {0, -d[1] / 2, d[3], d[1]}}, {{d[0], d[2]}, {d[1] + d[2] / 2, d[3]}}};
+  const double z = d[2] / 2;
+  return {{{0, z, d[0], d[2]}, {0, -d[1] / 2, d[3], d[1]}},
+          {{{0, z}, {-d[0] / 2, z}, d[2]}, {{0, z}, {d[0] / 2, z}, d[2]}, {{0, z}, {0, -d[1]}, d[3]}}};
+}
+Outline shape_l(Dimensions d) {
+  const double y = d[2] / 2, z = d[3] / 2;
+  return {{{y, d[0] / 2, d[2], d[0]}, {(d[1] + d[2]) / 2, z, d[1] - d[2], d[3]}},
+          {{{y, z}, {y, d[0]}, d[2]}, {{y, z}, {d[1], z}, d[3]}}};
 }
 Outline shape_chan(Dimensions d) {
-  const double y = (d[1] - d[3]) / 2, inner = d[1] - 2 * d[3], half = d[0] - d[2] / 2;
-  return {{{0, d[2] / 2, inner, d[2]}, {y, d[0] / 2, d[3], d[0]}, {-y, d[0] / 2, d[3], d[0]}},
-          {{2 * y, d[2]}, {half, d[3]}, {half, d[3]}}};
+  const double y = (d[1] - d[3]) / 2, inner = d[1] - 2 * d[3], web = d[2] / 2;
+  return {{{0, web, inner, d[2]}, {y, d[0] / 2, d[3], d[0]}, {-y, d[0] / 2, d[3], d[0]}},
+          {{{-y, web}, {y, web}, d[2]}, {{y, web}, {y, d[0]}, d[3]}, {{-y, web}, {-y, d[0]}, d[3]}}};
 }
 Outline shape_chan1(Dimensions d) { return shape_chan({d[0] + d[1], d[3], d[1], (d[3] - d[2]) / 2}); }
 Outline shape_chan2(Dimensions d) {
-  const double y = (d[2] + d[1]) / 2, z = (d[3] - d[0]) / 2, up = d[2] - d[1] / 2;
-  return {{{d[1] / 2, 0, d[1], d[3]}, {y, z, d[2] - d[1], d[0]}, {y, -z, d[2] - d[1], d[0]}},
-          {{2 * z, d[1]}, {up, d[0]}, {up, d[0]}}};
+  const double y = (d[2] + d[1]) / 2, z = (d[3] - d[0]) / 2, web = d[1] / 2;
+  return {{{web, 0, d[1], d[3]}, {y, z, d[2] - d[1], d[0]}, {y, -z, d[2] - d[1], d[0]}},
+          {{{web, -z}, {web, z}, d[1]}, {{web, z}, {d[2], z}, d[0]}, {{web, -z}, {d[2], -z}, d[0]}}};
 }
 Outline shape_cross(Dimensions d) {
   const double z = d[1] / 2 + d[0] / 4;
-  return {{{0, 0, d[2], d[1]}, {0, z, d[3], d[0] / 2}, {0, -z, d[3], d[0] / 2}}, {{d[2], d[1]}, {d[0], d[3]}}};
+  return {{{0, 0, d[2], d[1]}, {0, z, d[3], d[0] / 2}, {0, -z, d[3], d[0] / 2}},
+          {{{0, 0}, {d[2] / 2, 0}, d[1]},
+           {{0, 0}, {-d[2] / 2, 0}, d[1]},
+           {{0, 0}, {0, d[0] / 2}, d[3]},
+           {{0, 0}, {0, -d[0] / 2}, d[3]}}};
 }
 Outline shape_h(Dimensions d) {
-  const double z = d[0] / 2 + d[1] / 4;
+  const double z = d[0] / 2 + d[1] / 4, y = d[2] / 2;
   return {{{0, 0, d[3], d[0]}, {0, z, d[2], d[1] / 2}, {0, -z, d[2], d[1] / 2}},
-          {{d[0] + d[1] / 2, d[3]}, {d[2], d[1] / 2}, {d[2], d[1] / 2}}};
+          {{{0, -z}, {0, z}, d[3]},
+           {{0, z}, {y, z}, d[1] / 2},
+           {{0, z}, {-y, z}, d[1] / 2},
+           {{0, -z}, {y, -z}, d[1] / 2},
+           {{0, -z}, {-y, -z}, d[1] / 2}}};
 }
 Outline shape_z(Dimensions d) {
-  const double flange = (d[3] - d[2]) / 2, y = (d[3] - flange) / 2, z = (d[0] + d[1]) / 2, half = d[0] + d[1] / 2;
+  const double flange = (d[3] - d[2]) / 2, y = (d[3] - flange) / 2, z = (d[0] + d[1]) / 2, tip = d[0] + d[1] / 2;
   return {{{0, 0, d[3], d[1]}, {y, -z, flange, d[0]}, {-y, z, flange, d[0]}},
-          {{2 * y, d[1]}, {half, flange}, {half, flange}}};
+          {{{-y, 0}, {y, 0}, d[1]}, {{y, 0}, {y, -tip}, flange}, {{-y, 0}, {-y, tip}, flange}}};
 }
 Outline shape_hat(Dimensions d) {
   const double t = d[1], side = (d[2] - t) / 2, brim = d[3] + t, z = d[2] / 2 - t + brim / 2;
-  return {{{d[0] - t / 2, 0, t, d[2]},
+  const double top = d[0] - t / 2, tip = d[2] / 2 + d[3];
+  return {{{top, 0, t, d[2]},
            {d[0] / 2, side, d[0] - 2 * t, t},
            {d[0] / 2, -side, d[0] - 2 * t, t},
            {t / 2, z, t, brim},
            {t / 2, -z, t, brim}},
-          {{2 * side, t}, {d[0] - t, t}, {d[0] - t, t}, {d[3] + t / 2, t}, {d[3] + t / 2, t}}};
+          {{{top, -side}, {top, side}, t},
+           {{top, side}, {t / 2, side}, t},
+           {{t / 2, side}, {t / 2, tip}, t},
+           {{top, -side}, {t / 2, -side}, t},
+           {{t / 2, -side}, {t / 2, -tip}, t}}};
 }
 Outline shape_box1(Dimensions d) {
   const double inner = d[1] - d[2] - d[3], y = d[3] + inner / 2;
@@ -130,8 +161,37 @@ std::array<double, 5> constants_of(const Outline& outline) {
     i2 += a * (p.width * p.width / 12 + (p.z - z) * (p.z - z));
     i12 += a * (p.y - y) * (p.z - z);
   }
-  for (const auto& wall : outline.walls) j += wall.length * std::pow(wall.thickness, 3) / 3;
+  for (const auto& wall : outline.walls) j += wall.along().norm() * std::pow(wall.thickness, 3) / 3;
   return {area, i1, i2, std::abs(i12) > 1e-12 * std::sqrt(i1 * i2) ? i12 : 0, j};
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Shear centre of an open section of thin walls: with r from the centre of their areas, and the sectorial coordinate
+/// w, dw = r x dr, it is at d, where int w r dA = (int r r^T dA) (-d_z, d_y). Source: Vlasov, Thin-walled elastic
+/// beams, 2nd ed., ch. 1.
+Eigen::Vector2d shear_centre_of(const std::vector<Wall>& walls) {
+  double area = 0;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero(), sectorial = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  for (const Wall& wall : walls) {
+    const double a = wall.along().norm() * wall.thickness;
+    area += a, centre += a * (wall.from + wall.to) / 2;
+  }
+  centre /= area;
+  std::vector<std::pair<Eigen::Vector2d, double>> known{{walls.front().from, 0}};  // w of the ends so far
+  for (const Wall& wall : walls) {
+    const auto begin =
+        std::find_if(known.begin(), known.end(), [&](const auto& end) { return end.first == wall.from; });
+    const Eigen::Vector2d from = wall.from - centre, to = wall.to - centre;
+    const double a = wall.along().norm() * wall.thickness, w = begin->second, change = cross(from, to);
+    known.emplace_back(wall.to, w + change);
+    sectorial += a * (w * (from + to) / 2 + change * (from + 2 * to) / 6);
+    second +=
+        a / 6 * (2 * from * from.transpose() + 2 * to * to.transpose() + from * to.transpose() + to * from.transpose());
+  }
+  const Eigen::Vector2d turned = second.inverse() * sectorial;
+  return centre + Eigen::Vector2d(turned[1], -turned[0]);
 }
 
 /// Corners of the parts from the centre of the area: the extreme fibres are among them.
@@ -155,28 +215,14 @@ struct Shape {
   const char* name;
   std::size_t count;
   Outline (*outline)(Dimensions);  // none: a profile of its own
-  bool point_symmetric = true;     // its shear centre is the centre of its area
 };
 
-constexpr Shape shapes[] = {{"BAR", 2, nullptr},
-                            {"BOX", 4, nullptr},
-                            {"BOX1", 6, shape_box1, false},
-                            {"CHAN", 4, shape_chan, false},
-                            {"CHAN1", 4, shape_chan1, false},
-                            {"CHAN2", 4, shape_chan2, false},
-                            {"CROSS", 4, shape_cross},
-                            {"H", 4, shape_h},
-                            {"HAT", 4, shape_hat, false},
-                            {"HEXA", 3, nullptr},
-                            {"I", 6, shape_i},
-                            {"I1", 4, shape_i1},
-                            {"ROD", 1, nullptr},
-                            {"T", 4, shape_t, false},
-                            {"T1", 4, shape_t1, false},
-                            {"T2", 4, shape_t, false},
-                            {"TUBE", 2, nullptr},
-                            {"TUBE2", 2, nullptr},
-                            {"Z", 4, shape_z}};
+constexpr Shape shapes[] = {
+    {"BAR", 2, nullptr},       {"BOX", 4, nullptr},       {"BOX1", 6, shape_box1},   {"CHAN", 4, shape_chan},
+    {"CHAN1", 4, shape_chan1}, {"CHAN2", 4, shape_chan2}, {"CROSS", 4, shape_cross}, {"H", 4, shape_h},
+    {"HAT", 4, shape_hat},     {"HEXA", 3, nullptr},      {"I", 6, shape_i},         {"I1", 4, shape_i1},
+    {"L", 4, shape_l},         {"ROD", 1, nullptr},       {"T", 4, shape_t},         {"T1", 4, shape_t1},
+    {"T2", 4, shape_t2},       {"TUBE", 2, nullptr},      {"TUBE2", 2, nullptr},     {"Z", 4, shape_z}};
 
 const Shape* shape_named(const std::string& name) {
   const auto* found = std::find_if(std::begin(shapes), std::end(shapes), [&](const auto& s) { return name == s.name; });
@@ -219,6 +265,10 @@ void take_outline(NasFields& card, const Shape& shape, Dimensions d, NasBeamProp
   if (outline.walls.empty()) constants[4] = torsion_of_box1(d);
   take_constants(constants, property);
   property.section.fibres = corners_of(outline);
+  if (card.card.name == "PBEAML" && !outline.walls.empty()) {
+    const Eigen::Vector2d centroid = centre_of(outline) - shear_centre_of(outline.walls);
+    property.section.centroid = centroid.norm() > 1e-9 * size ? std::optional(centroid) : std::nullopt;
+  }
   property.section.torsion_modulus = outline.walls.empty() ? modulus_of_box1(d) : constants[4] / thickest(outline);
 }
 
@@ -241,10 +291,11 @@ std::size_t nas_shape_dimensions(const std::string& shape) {
 void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasBeamProperty& property) {
   const Shape& shape = *shape_named(name);
   const bool even = name != "I" || (equal_lengths(d[1], d[2]) && equal_lengths(d[4], d[5]));
-  if (card.card.name == "PBEAML" && !(shape.point_symmetric && even))
+  if (card.card.name == "PBEAML" && name == "BOX1" && !(equal_lengths(d[2], d[3]) && equal_lengths(d[4], d[5])))
     return card.refuse(
-        3, "(" + name + "): the axis of a CBEAM is its line of shear centres, whose distance from the centroid is " +
-               "not read for this shape; expected a symmetric section, or CBAR with PBARL");
+        3,
+        "(BOX1 of unequal walls): the axis of a CBEAM is its line of shear centres, whose distance from the centroid " +
+            std::string("is not read for this shape; expected equal walls, or CBAR with PBARL"));
   if (name == "BAR") {
     property.section.profile = Profile::rectangle;
     property.section.dimensions = {d[1], d[0]};

@@ -243,6 +243,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
     const fem::SectionShape given = shape;
     const fem::BeamReleases without = without_stiffness(shape);
     fem::SpatialBeam beam{fem::spatial_section(shape, material, centroid), section.direction_1, {}, {}};
+    if (section.centroid) beam.section.centroid = *section.centroid;  // its shear centre is in the line
     beam.releases = fem::BeamReleases(section.releases) | without;
     beam.alone = section.alone;
     beam.section.rhoIy = material.rho * given.Iy, beam.section.rhoIz = material.rho * given.Iz;

@@ -88,6 +88,9 @@ struct BeamSection {
   unsigned alone = 0;                     // bits: ends of a rod at nodes that rods alone hold
   std::vector<Eigen::Vector2d> fibres;    // of Profile::general, along 1 and 2 from the centre; empty: not known
   double torsion_modulus = 0;             // likewise, fem::SectionShape::W
+  /// Along 1 and 2 from the line between the nodes, where that is the line of shear centres; else shear centre and
+  /// centre of the area are one.
+  std::optional<Eigen::Vector2d> centroid = {};
 };
 
 /// What a spring between two nodes measures where these rotate (fem::NodeSpring).

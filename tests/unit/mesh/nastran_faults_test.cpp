@@ -91,7 +91,7 @@ TEST_CASE("wrong beams of Nastran are refused with line and field") {
       {"PBEAML,5,1,,BAR\n,.02,.03,,,1.,.02,x\n", "PBEAML: field 18 expects a dimension (a real number), found 'x'"},
       {"PBEAML,5,1,,BAR\n,.02,.03,2.,,.5,,,3.\n", "PBEAML 5 expects a station at end B (X/XB = 1)"},
       {"PBARL,5,1,,BXO\n,.02,.03,.001,.002\n", "found 'BXO', did you mean BOX?"},
-      {"PBEAML,5,1,,I\n,.04,.02,.03,.001,.002,.002\n", "expected a symmetric section"},
+      {"PBEAML,5,1,,BOX1\n,.04,.02,.001,.002,.001,.001\n", "expected equal walls"},
       {"PBARL,5,1,,BOX\n,.02,.03,.02,.002\n", "walls thinner"},
       {"PBAR,5,1,.01,3.-6,2.-6,-1.\n", "PBAR 5 expects A greater than 0, I1, I2 and J not negative"},
       {"PBAR,5,1,.01,0.,2.-6,1.\n,,,,,,,,\n,,,1.-6\n", "PBAR 5 expects A greater than 0"}};
@@ -114,7 +114,6 @@ TEST_CASE("constants of Nastran outside their range are refused with field and r
       {"MAT1,4,-1.,,.3\n", "expect E and G greater than 0"},
       {"MAT1,4,1.,-1.\n", "expect E and G greater than 0"},
       {"MAT1,4,1.,,.6\n", "MAT1: field 5 expects nu between -1 and 1/2, found 0.6"},
-      {"MAT1,4,1.,1.,-1.5\n", "expects nu between -1 and 1/2"},
       {"MAT1,4,1.,,.3,-1.\n", "MAT1: field 6 expects a density that is not negative"},
       {"MAT8,4,1.,1.,1.,1.\n", "MAT8: field 5 expects nu12^2 < E1 / E2"},
       {"MAT8,4,0.,1.,.3,1.\n", "MAT8: field 3"},

@@ -42,9 +42,51 @@ TEST_CASE("shapes of PBARL have the constants of their outlines") {
     CHECK(high[0] - low[0] == Approx(c.height));
     CHECK(high[1] - low[1] == Approx(c.width));
   }
-  CHECK_THAT(said(with_beam("PBEAML,5,1,,T\n,40.,30.,3.,2.\n")), Contains("line of shear centres"));
+  CHECK_THAT(said(with_beam("PBEAML,5,1,,BOX1\n,40.,30.,2.,3.,4.,5.\n")), Contains("line of shear centres"));
   CHECK_THAT(said(with_beam("PBARL,5,1,,T\n,40.,3.,3.,2.\n")), Contains("expects walls of T that are thinner"));
   CHECK_THAT(said(with_beam("PBARL,5,1,,HEXA\n,20.,40.,3.\n")), Contains("DIM1 less than half of DIM2"));
+}
+
+// T and L: the shear centre is where the middle lines meet. CHAN: b^2 h^2 t / (4 I) from the middle of the web, HAT:
+// b (3 h^2 b + 6 h^2 c - 8 c^3) / (h^3 + 6 h^2 b + 6 h^2 c + 8 c^3 + 12 h c^2) (Gere & Goodno, Mechanics of materials,
+// 9th ed., ch. 6.9 and problems). CHAN2 and PBEAM: the channel of 11 x 2 x 1/8 of a public deck that Femap made, whose
+// N2(A) is 0.754758.
+TEST_CASE("the centroid of a PBEAML lies beside its line of shear centres, that of a PBARL in its line") {
+  const auto centroid = [](const std::string& card) {
+    return read("shape.bdf", with_beam(card)).deck.beam_sections.at(0).centroid;
+  };
+  const double t = -(180. + 891) / 174 + 1.5;
+  const double b = 28, h = 23, c = 11;
+  const double hat = b * (3 * h * h * b + 6 * h * h * c - 8 * c * c * c) /
+                     (h * h * h + 6 * h * h * b + 6 * h * h * c + 8 * c * c * c + 12 * h * c * c);
+  const double hat_centre = 2. * (25 * 29 + 2 * 26 * 15 + 2 * 12 * 1) / 202;
+  const std::pair<const char*, Eigen::Vector2d> cases[] = {
+      {"T\n,40.,30.,3.,2.", {t, 0}},
+      {"T2\n,40.,30.,3.,2.", {-t, 0}},
+      {"L\n,20.,30.,3.,2.", {(60 * 1.5 + 54 * 16.5) / 114 - 1.5, (60 * 10. + 54) / 114 - 1}},
+      {"CHAN2\n,.125,.125,2.,11.", {0.754758, 0}},
+      {"HAT\n,30.,2.,25.,10.", {hat_centre - 29 - hat, 0}},
+      {"I\n,40.,20.,20.,2.,3.,3.", {0, 0}},
+      {"Z\n,20.,2.,24.,30.", {0, 0}},
+      {"CROSS\n,20.,3.,30.,2.", {0, 0}},
+      {"H\n,20.,4.,30.,3.", {0, 0}}};
+  for (const auto& [shape, expected] : cases) {
+    INFO(shape);
+    CHECK(!centroid(std::string("PBARL,5,1,,") + shape + "\n"));
+    const auto found = centroid(std::string("PBEAML,5,1,,") + shape + "\n");
+    CHECK(found.has_value() == !expected.isZero(0));
+    CHECK((found.value_or(Eigen::Vector2d::Zero()) - expected).norm() < 1e-4 * std::max(1., expected.norm()));
+  }
+  const std::string beam =
+      "PBEAM,5,1,1.84375,27.7245,.488696,0.,.00960286\n,5.5,2.43802,-5.5,.438021\n,YESA,1.\n,,,,,,,,\n";
+  const auto section = read("beam.bdf", with_beam(beam + ",,,,,,.754758\n")).deck.beam_sections.at(0);
+  REQUIRE(section.centroid);
+  CHECK(*section.centroid == Eigen::Vector2d(0, 0.754758));
+  CHECK((section.fibres.at(1) - Eigen::Vector2d(-5.5, 0.438021 - 0.754758)).norm() < 1e-12);  // given from the axis
+  CHECK(said(with_beam(beam + ",.1\n")) == "nothing was thrown");  // of no nonstructural mass
+  const std::string heavy = "PBEAM,5,1,1.,1.,1.,0.,1.,2.\n,YESA,1.\n,,,,,,,,\n,.1\n";
+  CHECK_THAT(said(with_beam(heavy)), Contains("is an offset of the nonstructural mass, which is not read"));
+  CHECK_THAT(said(with_beam(beam + ",,,,,,.75,,.5\n")), Contains("another offset of the neutral axis than at end A"));
 }
 
 TEST_CASE("a beam with taper is pieces of the sections in their middles") {
@@ -187,4 +229,10 @@ TEST_CASE("the scene has sections for elements without a property, and instead o
         std::string("CBAR,1,3,1,2,0.,0.,1.\n,4\n"), std::string("CROD,1,3,1,2\n")})
     CHECK_THAT(fault(grids + own, {{}, true, {}}),
                Contains("element 1 is a rod, or has thicknesses, an offset or free ends"));
+}
+
+TEST_CASE("E and G of a MAT1 need no nu for beams") {
+  const std::string soft = "MAT1,7,2.1+11,1.+9,104.,7800.\n", beam = "CBAR,9,5,1,2,0.,0.,1.\nPBAR,5,7,1.,1.,1.,1.\n";
+  const auto file = read("soft.bdf", square + soft + beam);
+  CHECK(file.deck.beam_sections.at(0).shear == 1e9);
 }

@@ -143,6 +143,16 @@ TEST_CASE("springs of a deck are cells of two nodes, one part for each set of co
   CHECK(std::get<fem::NodeSpring>(parts.at(file.mesh.cells[2].part)).stiffness[5] == 8);
 }
 
+TEST_CASE("a beam of a given centroid has its shear centre in the line between the nodes") {
+  mesh::BeamSection own = profile(mesh::Profile::rectangle, {0.2, 0.1});
+  CHECK(section(own).shear_centre.isZero(0));
+  own.centroid = Eigen::Vector2d(0.03, -0.01);
+  const auto found = section(own);
+  CHECK(found.centroid == *own.centroid);
+  CHECK(found.shear_centre.isZero(0));
+  CHECK(found.EIz == Approx(section(profile(mesh::Profile::rectangle, {0.2, 0.1})).EIz));  // about the centroid
+}
+
 TEST_CASE("a shell of varying thickness bends, and resists rotation, by the mean of its cubes") {
   mesh::DeckFile file;
   file.deck.materials = {{"M", mesh::Elasticity::isotropic, {2.6, 0.3}, 1}};
