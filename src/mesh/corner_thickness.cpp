@@ -19,8 +19,9 @@ double mean_of_cubes(std::span<const double> t) {
   const double root = 1 / std::sqrt(3.0);  // Gauss points integrate what is cubic in each direction
   for (const double x : {-root, root})
     for (const double y : {-root, root}) {
-      const double at = ((1 - x) * (1 - y) * t[0] + (1 + x) * (1 - y) * t[1] + (1 + x) * (1 + y) * t[2] +
-                         (1 - x) * (1 + y) * t[3]) / 4;
+      const double at =
+          ((1 - x) * (1 - y) * t[0] + (1 + x) * (1 - y) * t[1] + (1 + x) * (1 + y) * t[2] + (1 - x) * (1 + y) * t[3]) /
+          4;
       sum += at * at * at / 4;
     }
   return sum;

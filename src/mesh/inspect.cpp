@@ -7,6 +7,7 @@
 #include "faults.h"
 #include "floe/mesh/exchange.h"
 #include "floe/mesh/labels.h"
+#include "floe/petsc/all_ranks.h"
 
 namespace floe::mesh {
 namespace {
@@ -84,25 +85,42 @@ struct Key {
   std::array<PetscInt, most_nodes> nodes;  // ascending, -1 first
   PetscInt cell;
   long long label;
+  bool line;
   auto operator<=>(const Key&) const = default;
 };
 
-void check_duplicates(const RawMesh& mesh, Faults& faults) {
+/// Elements of the same nodes: those of beams go to `beams` where there is one, as pairs of labels, all others are
+/// faults.
+void check_duplicates(const RawMesh& mesh, Faults& faults, std::vector<std::array<long long, 2>>* beams) {
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
   std::vector<Key> keys;
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
     if (!has_extent(mesh.cells[i].kind)) continue;  // masses on one node add up, springs between two likewise
-    Key key{no_nodes<PetscInt>(), mesh.first_cell + static_cast<PetscInt>(i), mesh.cell_labels[i]};
+    Key key{no_nodes<PetscInt>(), mesh.first_cell + static_cast<PetscInt>(i), mesh.cell_labels[i],
+            is_line(mesh.cells[i].kind)};
     std::copy_n(mesh.cells[i].nodes.begin(), node_count(mesh.cells[i].kind), key.nodes.begin());
     std::sort(key.nodes.begin(), key.nodes.end());
     keys.push_back(key);
   }
   auto mine = scatter(mesh.comm, keys, [&](const Key& key) { return key.nodes.back() % ranks; }).values;
   std::sort(mine.begin(), mine.end());
-  for (std::size_t i = 1; i < mine.size(); ++i)
-    if (mine[i].nodes == mine[i - 1].nodes)
+  for (std::size_t i = 1; i < mine.size(); ++i) {
+    if (mine[i].nodes != mine[i - 1].nodes) continue;
+    if (beams && mine[i].line)
+      beams->push_back({mine[i].label, mine[i - 1].label});
+    else
       faults.add({1, mine[i].cell}, element(mine[i].label) + " has the nodes of " + element(mine[i - 1].label));
+  }
+}
+
+std::string beams_side_by_side(const RawMesh& mesh, const std::vector<std::array<long long, 2>>& mine) {
+  const auto all = petsc::of_all_ranks(mesh.comm, mine);
+  if (all.empty()) return "";
+  const auto [one, other] = *std::min_element(all.begin(), all.end());
+  return mesh.source + ": " + std::to_string(all.size()) +
+         (all.size() == 1 ? " beam has the nodes of another one" : " beams have the nodes of others") +
+         ", for example " + element(one) + " those of " + element(other) + ": all of them count";
 }
 
 struct Edge {
@@ -150,11 +168,13 @@ PetscInt opposite_edges(const RawMesh& mesh, std::array<long long, 2>& sample) {
 
 }  // namespace
 
-Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2>>& connections) {
+Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2>>& connections, bool side_by_side) {
   Inspection result;
   Faults faults;
+  std::vector<std::array<long long, 2>> beams;
   check_shapes(mesh, faults);
-  check_duplicates(mesh, faults);
+  check_duplicates(mesh, faults, side_by_side ? &beams : nullptr);
+  if (const std::string notice = beams_side_by_side(mesh, beams); !notice.empty()) result.notices.push_back(notice);
   result.faults = faults.texts_together(mesh.comm);
   for (auto& fault : result.faults) fault.insert(0, mesh.source + ": ");
   find_components(mesh, connections, result);

@@ -76,6 +76,10 @@ generate::Halved division_of(const fem::Section& section) {
   return rod ? generate::Halved::along_shells : generate::Halved::none;
 }
 
+mesh::Inspection inspected(const Source& source, const std::vector<std::array<PetscInt, 2>>& connections = {}) {
+  return mesh::inspect(source.mesh, connections, !source.parts.empty());
+}
+
 /// Faults of elements and nodes, by their numbers in the file.
 std::vector<std::string> faults_of(const Body& body, const mesh::Inspection& inspection) {
   std::vector<std::string> faults;
@@ -92,7 +96,7 @@ void refine(const Body& body, Source& source) {
     throw InputError(
         fmt::format("{}.file.refine: is {}, which makes up to {:.3g} elements of {}; expected at most {:g}",
                     body.mesh.where.text(), times, elements, source.mesh.cell_count, most));
-  if (const auto faults = faults_of(body, mesh::inspect(source.mesh)); !faults.empty()) throw InputError(faults);
+  if (const auto faults = faults_of(body, inspected(source)); !faults.empty()) throw InputError(faults);
   std::vector<generate::Halved> parts(source.mesh.parts.size(), generate::Halved::all);
   for (const auto& [part, section] : source.parts) parts[part] = division_of(section);
   mesh::RawMesh whole = on_every_rank(source.mesh);
@@ -321,7 +325,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   std::vector<std::array<PetscInt, 2>> linked;
   for (const mesh::DependentNode& f : source.dependent_nodes)
     if (rank == 0) linked.push_back({f.node, f.independent_node});
-  const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
+  const mesh::Inspection inspection = inspected(source, linked);
   refuse_faults(body, inspection);
   auto [sections, points] = sections_of(body, source);
   int size = 1;

@@ -22,10 +22,12 @@ struct Inspection {
 ///
 /// Faults: coordinates that are no numbers, a node twice in a cell, cells without length or area (area <= 1e-12 of the
 /// longest edge squared), quadrilaterals that are folded (not convex), elements of the same nodes.
-/// Notices: several components, neighbouring shells of opposite orientation. Cells and nodes are named by their numbers
-/// in the file.
+/// Notices: several components, neighbouring shells of opposite orientation, beams side by side. Cells and nodes are
+/// named by their numbers in the file.
 /// @param connections  pairs of nodes that something else than an element joins (rigid links), of this rank
+/// @param side_by_side  beams between the same nodes are a notice, no fault: a deck has them for members of two parts
 /// Collective.
-Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2>>& connections = {});
+Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2>>& connections = {},
+                   bool side_by_side = false);
 
 }  // namespace floe::mesh

@@ -59,6 +59,17 @@ TEST_CASE("cells that are no cells are named") {
   CHECK(concave.faults == std::vector<std::string>{"test: element 100 is folded: not convex"});
 }
 
+TEST_CASE("beams side by side are a fault, or a notice where they are meant") {
+  const auto mesh =
+      spread(corners, {line(0, 1), triangle(0, 1, 2), line(1, 0), line(1, 2), line(0, 1), triangle(2, 1, 0)});
+  CHECK(mesh::inspect(mesh).faults.size() == 3);
+  const auto found = mesh::inspect(mesh, {}, true);
+  CHECK(found.faults == std::vector<std::string>{"test: element 105 has the nodes of element 101"});
+  REQUIRE(!found.notices.empty());
+  CHECK(found.notices[0] ==
+        "test: 2 beams have the nodes of others, for example element 102 those of element 100: all of them count");
+}
+
 TEST_CASE("coordinates that are not finite are named") {
   auto nodes = corners;
   nodes[1][2] = std::nan("");
