@@ -43,16 +43,20 @@ void read_shell(NasReader& r) {
       r.card.integer(0, "the element's number"), 0, {-1, -1, -1, -1}, four ? 4 : 3, 0, -1, 0, {}, false, r.where()};
   shell.property = r.card.card.blank(1) ? shell.id : r.card.integer(1, "a property");
   for (int i = 0; i < shell.count; ++i) shell.nodes[i] = r.card.integer(2 + i, "a grid");
-  shell.quadratic = r.card.card.name == "CQUAD8" || r.card.card.name == "CTRIA6";
+  const bool middles = r.card.card.name == "CQUAD8" || r.card.card.name == "CTRIA6";
+  for (int i = 0; i < shell.count && middles; ++i)
+    shell.quadratic = shell.quadratic || !r.card.card.blank(2 + shell.count + i);
   for (int i = 0; i < shell.count && shell.quadratic; ++i)
     shell.middles[i] = r.card.integer(2 + shell.count + i, "a grid between two corners");
-  const std::size_t after = !shell.quadratic ? 2 + shell.count : four ? 14 : 8;
+  if (middles && !shell.quadratic)
+    r.count_ignored("second order of " + r.card.card.name + " without grids between corners");
+  const std::size_t after = !middles ? 2 + shell.count : four ? 14 : 8;
   if (r.card.is_integer(after))
     shell.axes = std::max(0LL, r.card.integer(after, "axes (MCID)", 0));
   else
     shell.angle = r.card.real(after, "an angle (THETA) or axes (MCID)", 0);
   shell.offset = r.card.real(after + 1, "an offset (ZOFFS)", 0);
-  shell.ratio = r.card.integer(!shell.quadratic ? 9 : four ? 16 : 13, "0 or 1 (TFLAG)", 0) == 1;
+  shell.ratio = r.card.integer(!middles ? 9 : four ? 16 : 13, "0 or 1 (TFLAG)", 0) == 1;
   for (int i = 0; i < shell.count; ++i) {
     if (r.card.card.blank(10 + i)) continue;
     shell.thicknesses[i] = r.card.real(10 + i, "a thickness");

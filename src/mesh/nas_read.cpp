@@ -204,6 +204,8 @@ std::string nas_reason(const std::string& name) {
        "material"},
       {"MAT1 G", "shells take E and nu, beams E and G, which differ by more than 1 % from E = 2 G (1 + nu)"},
       {"GE", "damping is that of the scene"},
+      {"second order of CQUAD8 without grids between corners", "read as CQUAD4"},
+      {"second order of CTRIA6 without grids between corners", "read as CTRIA3"},
       {"variation of corner thicknesses", "a shell has their mean, and bends by the mean of the cubes"},
       {"PBEAM S1, S2", "shear forces of beams are not relieved by taper"},
       {"PBEAM NSI", "the nonstructural mass is spread over the section"},

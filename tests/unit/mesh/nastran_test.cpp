@@ -84,6 +84,17 @@ TEST_CASE("shell elements of one property that differ are parts of the same name
   CHECK(edge.deck.shell_sections[1].taper == Approx(2.7));  // t^3 / 10 of a third
 }
 
+TEST_CASE("shells of second order without grids between corners are of first order") {
+  const auto file = read("none.bdf", grids + "CQUAD8,1,3,1,2,3,4\n,,,.01,.01,.01,.03\nCTRIA6,2,3,1,2,3\n" + skin);
+  std::vector<mesh::CellKind> kinds;
+  for (const auto& cell : testing::of_all_ranks(file.mesh.cells)) kinds.push_back(cell.kind);
+  CHECK(kinds == std::vector{mesh::CellKind::quadrilateral, mesh::CellKind::triangle});
+  CHECK(file.deck.shell_sections.at(0).plies[0].thickness == Approx(0.015));
+  CHECK_THAT(all_of(file.notices),
+             Contains("second order of CTRIA6 without grids between corners is ignored: read as CTRIA3 (1 card)"));
+  CHECK_THAT(said(square + "CQUAD8,2,3,1,2,3,4,5\n"), Contains("CQUAD8: field 9 expects a grid between two corners"));
+}
+
 TEST_CASE("laminates of PCOMP and PCOMPG, and their axes") {
   const std::string cards =
       "PCOMP,5,-.001,2.,,,,,SYM\n,8,.0005,0.,,,,45.\nPCOMPG,6\n,1,8,.0005,30.\n,2,2,.001,\n"
