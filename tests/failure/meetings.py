@@ -196,6 +196,8 @@ def two_that_write_one_file(floe, ranks, folder):
                         (["modes", "scene.yaml", "--write", "modes.xdmf", "--force"], "modes.xdmf")):
         first = Process(floe, ranks, folder, *words, name="one")
         first.until((folder / f".{name}.lock").exists, "its lock")
+        for pid in first.members():  # which might end before the second one begins
+            os.kill(pid, signal.SIGSTOP)
         Process(floe, ranks, folder, *words, name="two").ends(2, HELD)
         first.kill()
         Process(floe, ranks, folder, *words, name="three").ends(0)
