@@ -164,7 +164,7 @@ void print_properties(const std::vector<assess::BodyProperties>& bodies, int dim
   if (dimension == 3) fmt::print("{}\n", output::to_text(moments));
 }
 
-/// Of flexible bodies: free of supports, and as their modes are constrained.
+/// Free of supports, and as the modes are constrained; bodies that cannot deform have none.
 output::Table frequency_table(const std::vector<assess::BodyProperties>& bodies) {
   output::Table table;
   const bool constrained =
@@ -174,12 +174,16 @@ output::Table frequency_table(const std::vector<assess::BodyProperties>& bodies)
   const auto hertz = [](const std::vector<double>& omega, std::size_t i) {
     return i < omega.size() ? output::Cell(omega[i] / (2 * M_PI)) : output::Cell("-");
   };
-  for (const assess::BodyProperties& body : bodies)
-    for (std::size_t i = 0; i < std::max(body.free.size(), body.constrained.size()); ++i) {
+  for (const assess::BodyProperties& body : bodies) {
+    const std::size_t count = std::max(body.free.size(), body.constrained.size());
+    if (count == 0) table.rows.emplace_back(std::vector<output::Cell>{body.name, "none", "-"});
+    if (count == 0 && constrained) table.rows.back().emplace_back("-");
+    for (std::size_t i = 0; i < count; ++i) {
       auto& row = table.rows.emplace_back(std::vector<output::Cell>{body.name, static_cast<std::int64_t>(i + 1)});
       row.push_back(hertz(body.free, i));
       if (constrained) row.push_back(hertz(body.constrained, i));
     }
+  }
   return table;
 }
 

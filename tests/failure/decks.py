@@ -68,6 +68,9 @@ def cases(Case):
         yield Case(f"deck: in place of a scene, {name}", [name, "part.inp"] + ["--frequencies", "2"] * (name == "check"), 0, lines=0,
                    shows=("body", "[Hz]"), files={"part.inp": deck(METRES, 0.01)})
         yield Case(f"deck: that is not there, {name}", [name, "none.inp"], 2, says=("none.inp",), lines=1)
+    rigid = deck(METRES, 0.01, more="*NSET, NSET=WHOLE, GENERATE\n2, 6, 1\n*RIGID BODY, REF NODE=1, NSET=WHOLE\n")
+    yield Case("deck: one that cannot deform", ["check", "part.inp", "--frequencies", "2"], 0, lines=0, shows=("none",),
+               files={"part.inp": rigid})
     silent = {"never": ("Note: part.inp", "has no density", "scale"), "lines": 0}
     yield Case("deck: in millimetres throughout", ["modes", "scene.yaml"], 0, scene=scene(),
                files={"part.inp": deck(MILLIMETRES, 2)}, **silent)
