@@ -32,7 +32,8 @@ double mean_of_cubes(std::span<const double> t) {
 CornerThickness corner_thickness(std::span<const double> corners) {
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / static_cast<double>(corners.size());
   if (std::all_of(corners.begin(), corners.end(), [&](double t) { return t == corners[0]; })) return {corners[0]};
-  return {mean, mean_of_cubes(corners) / (mean * mean * mean)};
+  return {mean, mean_of_cubes(corners) / (mean * mean * mean),
+          *std::max_element(corners.begin(), corners.end()) / mean};
 }
 
 }  // namespace floe::mesh

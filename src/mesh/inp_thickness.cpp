@@ -96,7 +96,7 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
     ShellSection section = *section_of(variant.part);
     section.number = static_cast<int>(mesh.parts.size());
     section.plies[0].thickness = variant.thickness.mean;
-    section.taper = variant.thickness.taper;
+    section.taper = variant.thickness.taper, section.thickest = variant.thickness.thickest;
     mesh.parts.push_back(std::string(mesh.parts[variant.part]));
     sections.push_back(std::move(section));
   }

@@ -20,7 +20,7 @@ class NasBuild {
 
  private:
   /// What makes elements of one property different parts.
-  using Variant = std::array<double, 6>;
+  using Variant = std::array<double, 7>;
 
   /// A node at the end of a beam with an offset.
   struct Extra {
@@ -78,6 +78,7 @@ class NasBuild {
   std::string named_material(const NasMaterial& of, double extra_density, const std::string& property);
   bool has_axes(const NasShellProperty& property) const;
   Eigen::Vector3d axis_of(const NasShell& shell);
+  const NasMaterial* shell_material(long long id, const NasShellProperty& property);
   static CornerThickness thickness_of(const NasShell& shell, const NasShellProperty& property);
   void add_shell_section(const NasShell& shell, const NasShellProperty& property, const CornerThickness& own,
                          const Eigen::Vector3d& axis, int part);
@@ -113,6 +114,7 @@ class NasBuild {
   std::map<long long, RigidLink> free_;       // rotations of dependent grids that are their own
   std::map<std::size_t, unsigned> released_;  // of beams at links that leave rotations free, as NasBeam::releases
   std::vector<long long> used_materials_, used_properties_;
+  long long varying_shells_ = 0;                       // whose thickness varies between their corners
   std::map<std::string, long long> without_property_;  // elements of parts that have the scene's section
 };
 

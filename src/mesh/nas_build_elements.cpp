@@ -131,6 +131,18 @@ std::string NasBuild::named_material(const NasMaterial& of, double extra_density
   return material.name;
 }
 
+const NasMaterial* NasBuild::shell_material(long long id, const NasShellProperty& property) {
+  const NasMaterial* found = material(id, property.where, property.name);
+  if (!found || found->material.elasticity != Elasticity::isotropic) return found;
+  const double nu = found->material.constants[1];
+  if (nu > -1 && nu <= 0.5) return found;
+  faults_.add(property.where,
+              fmt::format("{} names MAT1 {}, whose nu is {:.6g}; expected one between -1 and 1/2 (beams "
+                          "alone need no more than E and G)",
+                          property.name, id, nu));
+  return nullptr;
+}
+
 /// Its own, where it has any and the property is not one of plies.
 CornerThickness NasBuild::thickness_of(const NasShell& shell, const NasShellProperty& property) {
   const double given = property.plies.front().thickness;
@@ -147,13 +159,13 @@ void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& 
                                  const Eigen::Vector3d& axis, int part) {
   const double thickness = own.mean;
   ShellSection section;
-  section.taper = own.taper;
+  section.taper = own.taper, section.thickest = own.thickest;
   section.part = property.name;
   section.number = part;
   double total = 0;
   for (const NasPly& ply : property.plies) total += ply.thickness;
   for (const NasPly& ply : property.plies) {
-    const NasMaterial* found = material(ply.material, property.where, property.name);
+    const NasMaterial* found = shell_material(ply.material, property);
     if (!found) return;
     const bool one = property.plies.size() == 1, differs = one && thickness != total;  // the element's T1 to T4
     const std::string with = differs ? fmt::format("{}, thickness {:.9g}", property.name, thickness) : property.name;
@@ -171,7 +183,7 @@ void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& 
   }
   if (property.bends_apart()) {
     const long long id = property.bending.value_or(property.plies.front().material);
-    const NasMaterial* bending = material(id, property.where, property.name);
+    const NasMaterial* bending = shell_material(id, property);
     if (!bending) return;
     section.bending = ShellBending{named_material(*bending, 0, property.name), property.factor};
   }
@@ -188,9 +200,11 @@ void NasBuild::add_shells() {
     int part = -1;
     if (own) {
       const CornerThickness thickness = thickness_of(shell, *own);
+      varying_shells_ += thickness.taper != 1;
       Eigen::Vector3d axis = Eigen::Vector3d::Zero();
       if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
-      part = part_of(shell.property, {thickness.mean, thickness.taper, shell.offset, axis[0], axis[1], axis[2]},
+      part = part_of(shell.property,
+                     {thickness.mean, thickness.taper, thickness.thickest, shell.offset, axis[0], axis[1], axis[2]},
                      own->name, [&](int number) {
                        if (!replaced(own->name)) add_shell_section(shell, *own, thickness, axis, number);
                      });

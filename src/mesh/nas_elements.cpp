@@ -62,9 +62,6 @@ void read_shell(NasReader& r) {
     shell.thicknesses[i] = r.card.real(10 + i, "a thickness");
     if (*shell.thicknesses[i] < 0) r.card.refuse(10 + i, "expects a thickness that is not negative");
   }
-  if (std::any_of(shell.thicknesses.begin(), shell.thicknesses.begin() + shell.count,
-                  [&](const auto& t) { return t != shell.thicknesses[0]; }))
-    r.count_ignored("variation of corner thicknesses");
   if (r.card.good()) r.model.shells.push_back(shell);
 }
 
@@ -199,7 +196,7 @@ void refuse_mean(NasReader& r, std::size_t field, const std::string& expected) {
 /// Components that take part in a mean: all translations, perhaps with rotations, which are left out.
 void check_components(NasReader& r, std::size_t field) {
   const std::string found = components(r.card.card.text(field));
-  if (!found.starts_with("123"))
+  if (!found.starts_with("123") || found.find_first_not_of("123456") != std::string::npos)
     refuse_mean(r, field, "the components 123 of all grids");
   else if (found.size() > 3)
     r.count_ignored("RBE3 456 of the grids");

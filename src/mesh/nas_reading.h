@@ -31,7 +31,7 @@ struct NasShell {
   std::array<long long, 4> middles{-1, -1, -1, -1};  // of its edges from each corner to the next; of second order alone
   bool quadratic = false;
   bool has_thickness() const {
-    return std::any_of(thicknesses.begin(), thicknesses.end(), [](const auto& t) { return t.has_value(); });
+    return std::any_of(thicknesses.begin(), thicknesses.end(), [](const auto& t) { return t.value_or(0) > 0; });
   }
 };
 

@@ -64,7 +64,9 @@ struct ShellSection {
   std::optional<ShellBending> bending = {};
   double shear = 0;       // transverse, of elements of second order; 0: as of a homogeneous shell
   double added_mass = 0;  // per area, besides that of the plies, over which it is spread
-  double taper = 1;       // of elements whose thickness varies: the mean of t^3 by the third power of the mean t
+  // Of elements whose thickness varies: the mean of t^3 by the third power of the mean t, and the greatest t by the
+  // mean.
+  double taper = 1, thickest = 1;
 };
 
 /// Dimensions: a b | radius, or half axes | outer radius, wall | a b t1 t2 t3 t4 | l h b1 b2 t1 t2 t3 | A I11 I12 I22

@@ -74,6 +74,7 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,0.,123,1,2\n", "RBE3: field 6 expects a weight greater than 0"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,12,1,2\n",
        "RBE3: field 7 expects the components 123 of all grids, found '12'"},
+      {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,1237,1,2\n", "RBE3: field 7 expects the components 123 of all grids"},
       {"GRID,5,,.5,.1,0.\nRBE3,70,,5,123456,1.,123,1,2\n",
        "bad.bdf:9: RBE3 70: reference grid 5 is 0.1 away from the mean of its grids, (0.5, 0, 0)"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,123,1,\n,,3.,123,2\n",

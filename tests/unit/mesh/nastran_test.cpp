@@ -76,7 +76,8 @@ TEST_CASE("shell elements of one property that differ are parts of the same name
   CHECK(file.deck.shell_sections[1].plies[0].thickness == Approx(0.02));
   CHECK(file.deck.shell_sections[1].offset == Approx(-1.0));
   CHECK(file.deck.shell_sections[1].taper == Approx(1 + 1. / 12));  // t = 1 - xy / 2
-  CHECK_THAT(all_of(file.notices), Contains("variation of corner thicknesses is ignored: a shell has their mean"));
+  CHECK(file.deck.shell_sections[1].thickest == Approx(1.5));
+  CHECK_THAT(all_of(file.notices), Contains("1 shell of varying thickness: membrane and mass by the mean"));
   const auto edge = read("edge.bdf", grids + "CQUAD4,1,3,1,2,3,4\n,,,.04,.04\nCTRIA3,2,3,1,2,3\n,,1,0.,0.,3.\n" + skin);
   REQUIRE(edge.deck.shell_sections.size() == 2);
   CHECK(edge.deck.shell_sections[0].plies[0].thickness == Approx(0.025));  // the others have that of the PSHELL, 0.01

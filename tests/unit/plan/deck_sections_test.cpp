@@ -161,11 +161,14 @@ TEST_CASE("a shell of varying thickness bends, and resists rotation, by the mean
   file.deck.shell_sections = {own};
   const auto shell = [&] { return std::get<fem::ShellSection>(plan::deck_sections(file).parts.at(0)); };
   const fem::ShellSection even = shell();
-  file.deck.shell_sections[0].taper = 2;
+  file.deck.shell_sections[0].taper = 2, file.deck.shell_sections[0].thickest = 1.5;
   const fem::ShellSection varying = shell();
   CHECK(varying.A == even.A);
   CHECK(varying.mass == even.mass);
   CHECK(varying.coupling == even.coupling);
   CHECK((varying.bending - 2 * even.bending).norm() < 1e-14 * even.bending.norm());
   CHECK(varying.mass_radius * varying.mass_radius == Approx(2 * even.mass_radius * even.mass_radius));
+  const fem::StressPoints points = plan::deck_sections(file).points.at(0);
+  REQUIRE(points.layers.size() == 1);
+  CHECK(points.layers[0].top - points.layers[0].bottom == Approx(0.15));  // where it is thickest
 }
