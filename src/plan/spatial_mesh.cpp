@@ -38,6 +38,7 @@ struct Source {
   std::vector<std::string> notices;
   std::vector<mesh::DependentNode> dependent_nodes = {};
   std::map<int, fem::StressPoints> points = {};  ///< of the deck's own sections
+  bool deck = false;                             ///< whether it is one
 };
 
 /// Parts that the scene gives a section by name.
@@ -77,7 +78,7 @@ generate::Halved division_of(const fem::Section& section) {
 }
 
 mesh::Inspection inspected(const Source& source, const std::vector<std::array<PetscInt, 2>>& connections = {}) {
-  return mesh::inspect(source.mesh, connections, !source.parts.empty());
+  return mesh::inspect(source.mesh, connections, source.deck);
 }
 
 /// Faults of elements and nodes, by their numbers in the file.
@@ -132,8 +133,8 @@ Source read_file(const Body& body, MPI_Comm comm) {
                                     omitted > 1 ? "are" : "is"));
     add_springs(read.mesh, read.deck.springs, deck.parts);
     std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck);
-    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(dependent_nodes),
-              std::move(deck.points)};
+    source = {std::move(read.mesh),       std::move(deck.parts),  std::move(notices),
+              std::move(dependent_nodes), std::move(deck.points), true};
   } else {
     throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh, .inp, .bdf, .nas or .dat",
                                  body.mesh.where.text(), file.path));

@@ -3,6 +3,7 @@
 #include "differences.h"
 #include "eigenvalues.h"
 #include "floe/error.h"
+#include "floe/fem/constrained_frame.h"
 #include "spatial_structures.h"
 
 using namespace floe;
@@ -43,6 +44,28 @@ MatrixXd columns(const fem::Structure& s, const std::vector<petsc::VecHandle>& f
 }
 
 }  // namespace
+
+TEST_CASE("a frame by what the ground holds rests on displacements, and on rotations where these do not suffice") {
+  const fem::Structure s = mixed();
+  const auto held = [&](const std::vector<PetscInt>& originals) {
+    fem::Conditions dofs;
+    for (const PetscInt node : fem::global_nodes(s.mesh, originals))
+      for (PetscInt d = 0; d < 6; ++d) dofs.push_back(6 * node + d);
+    std::sort(dofs.begin(), dofs.end());
+    return dofs;
+  };
+  const auto rotations = [](const fem::Conditions& dofs) {
+    return std::count_if(dofs.begin(), dofs.end(), [](PetscInt dof) { return dof % 6 >= 3; });
+  };
+  const fem::Conditions all = held({0, 1, 3, 4}), one = held({3});
+  const fem::ReferenceFrame frame = fem::constrained_frame(s, all), clamped = fem::constrained_frame(s, one);
+  CHECK(frame.conditions.size() == 6);
+  CHECK(rotations(frame.conditions) == 0);
+  CHECK(std::includes(all.begin(), all.end(), frame.conditions.begin(), frame.conditions.end()));
+  CHECK(clamped.conditions == one);
+  CHECK(rotations(fem::constrained_frame(s, held({0, 3})).conditions) == 1);  // about the line between them
+  CHECK_THROWS_AS(fem::constrained_frame(s, {one[0], one[1], one[3]}), InputError);
+}
 
 TEST_CASE("the projector of a frame in space: P^2 = P, P Phi_r = 0, f' P = 0, and balance is its transpose") {
   const Kind kind = GENERATE(Kind::pinned, Kind::clamped, Kind::mean_axis);
