@@ -64,10 +64,11 @@ void take_general(NasFields& card, NasBeamProperty& property, std::array<double,
 }
 
 // C1 C2 D1 D2 E1 E2 F1 F2 of PBAR, and of the stations of PBEAM, from a field on: y and z from the axis of the element.
-// All zero, which is also what blank fields are: none are known.
+// Pairs of blank fields are left out; all zero: none are known.
 std::vector<Eigen::Vector2d> stress_points(NasFields& card, std::size_t first) {
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = first; i < first + 8; i += 2) {
+    if (card.card.blank(i) && card.card.blank(i + 1)) continue;
     const double y = card.real(i, "a coordinate of a stress point", 0);
     points.emplace_back(y, card.real(i + 1, "a coordinate of a stress point", 0));
   }
@@ -101,9 +102,6 @@ void read_after_stations(NasReader& r, std::size_t at, bool has_added_mass, NasB
     const double a = r.card.real(first, "a real number", 0), b = r.card.real(first + 1, "a real number", 0);
     if (a != 0 || b != 0) r.count_ignored(pairs[k]);
   }
-  for (int i = 8; i < 12; ++i)
-    if (r.card.real(at + i, "an offset of the mass", 0) != 0 && has_added_mass)
-      r.card.refuse(at + i, "is an offset of the nonstructural mass, which is not read");
   for (int i : {0, 1}) {
     const double a = r.card.real(at + 12 + i, "an offset of the neutral axis", 0);
     if (r.card.real(at + 14 + i, "an offset of the neutral axis", a) != a)
@@ -111,6 +109,21 @@ void read_after_stations(NasReader& r, std::size_t at, bool has_added_mass, NasB
     if (a != 0) property.section.centroid = property.section.centroid.value_or(Eigen::Vector2d::Zero());
     if (a != 0) (*property.section.centroid)[i] = a;
   }
+  const Eigen::Vector2d centroid = property.section.centroid.value_or(Eigen::Vector2d::Zero());
+  bool on_axis = false;
+  for (int i : {0, 1}) {
+    const double a = r.card.real(at + 8 + i, "an offset of the mass", 0);
+    for (const auto& [field, offset] :
+         {std::pair{at + 8 + i, a}, {at + 10 + i, r.card.real(at + 10 + i, "an offset of the mass", a)}}) {
+      if (!has_added_mass || offset == centroid[i]) continue;
+      on_axis = on_axis || offset == 0;
+      if (offset != 0)
+        r.card.refuse(field,
+                      "is an offset of the nonstructural mass that is not that of the neutral axis (N1, N2), "
+                      "which is not read");
+    }
+  }
+  if (on_axis) r.count_ignored("PBEAM M1, M2");
 }
 
 // Of what no piece carries the ends of the whole are released (torsion at A alone), and the constant that is 0 becomes
@@ -194,6 +207,7 @@ void read_pbarl(NasReader& r) {
   };
   take(d, property);
   NasTaper taper(d);
+  if (property.section.centroid && d.back() != 0) r.count_ignored("axis of the NSM of PBEAML");
   if (card.name == "PBEAML")
     for (std::size_t i = 9 + count; i < card.fields.size() && !card.blank_from(i); i += 2 + d.size()) {
       std::vector<std::optional<double>> values(d.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "text.h"
 
@@ -183,6 +184,7 @@ Eigen::Vector2d shear_centre_of(const std::vector<Wall>& walls) {
   for (const Wall& wall : walls) {
     const auto begin =
         std::find_if(known.begin(), known.end(), [&](const auto& end) { return end.first == wall.from; });
+    if (begin == known.end()) throw std::logic_error("a wall of a section begins where no other one is");
     const Eigen::Vector2d from = wall.from - centre, to = wall.to - centre;
     const double a = wall.along().norm() * wall.thickness, w = begin->second, change = cross(from, to);
     known.emplace_back(wall.to, w + change);
@@ -233,6 +235,7 @@ void take_constants(const std::array<double, 5>& c, NasBeamProperty& property) {
   property.area = c[0];
   property.section.profile = Profile::general;
   property.section.dimensions = {c[0], c[2], c[3], c[1], c[4]};
+  property.section.quarter_turn = false;  // of pieces beside one that is an I of equal flanges
 }
 
 void take_round(NasFields& card, const std::string& shape, Dimensions d, NasBeamProperty& property) {
@@ -290,12 +293,10 @@ std::size_t nas_shape_dimensions(const std::string& shape) {
 // Dimensions of PBARL and PBEAML in those of BeamSection: direction 1 is y of the element, 2 is z.
 void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasBeamProperty& property) {
   const Shape& shape = *shape_named(name);
-  const bool even = name != "I" || (equal_lengths(d[1], d[2]) && equal_lengths(d[4], d[5]));
   if (card.card.name == "PBEAML" && name == "BOX1" && !(equal_lengths(d[2], d[3]) && equal_lengths(d[4], d[5])))
-    return card.refuse(
-        3,
-        "(BOX1 of unequal walls): the axis of a CBEAM is its line of shear centres, whose distance from the centroid " +
-            std::string("is not read for this shape; expected equal walls, or CBAR with PBARL"));
+    return card.refuse(3,
+                       "(BOX1 of unequal walls): the axis of a CBEAM is its line of shear centres, whose distance from "
+                       "the centroid is not read for this shape; expected equal walls, or CBAR with PBARL");
   if (name == "BAR") {
     property.section.profile = Profile::rectangle;
     property.section.dimensions = {d[1], d[0]};
@@ -311,7 +312,8 @@ void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasB
     take_round(card, name, d, property);
   } else {
     take_outline(card, shape, d, property);
-    if (name != "I" || !even || !card.good()) return;
+    const bool even = name == "I" && equal_lengths(d[1], d[2]) && equal_lengths(d[4], d[5]);
+    if (!even || !card.good()) return;
     property.section.profile = Profile::i_section;
     property.section.dimensions = {d[0] / 2, d[0], d[1], d[2], d[4], d[5], d[3]};
     property.section.quarter_turn = true;

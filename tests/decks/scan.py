@@ -32,7 +32,7 @@ def reason_of(message):
     line = re.sub(r"^floe: |^error: ", "", message.strip().splitlines()[0] if message.strip() else "(nothing)")
     line = re.sub(r"^\S*scene\.yaml:\d+:\d+: [\w.]+: ", "", line)  # the place in the scene, before that in the deck
     line = re.sub(r"^\S*deck\.\w+(:\d+)?: ", "", line)
-    line = re.sub(r"\(B31,.*\)|; to leave them out.*", "", line).strip()
+    line = re.sub(r"\(B31,.*\)|; to leave .*", "", line).strip()
     return re.sub(r"\b(element|node|nodes|elements) \d+", r"\1 N", line)[:150]
 
 

@@ -47,15 +47,18 @@ TEST_CASE("shapes of PBARL have the constants of their outlines") {
   CHECK_THAT(said(with_beam("PBARL,5,1,,HEXA\n,20.,40.,3.\n")), Contains("DIM1 less than half of DIM2"));
 }
 
-// T and L: the shear centre is where the middle lines meet. CHAN: b^2 h^2 t / (4 I) from the middle of the web, HAT:
-// b (3 h^2 b + 6 h^2 c - 8 c^3) / (h^3 + 6 h^2 b + 6 h^2 c + 8 c^3 + 12 h c^2) (Gere & Goodno, Mechanics of materials,
-// 9th ed., ch. 6.9 and problems). CHAN2 and PBEAM: the channel of 11 x 2 x 1/8 of a public deck that Femap made, whose
-// N2(A) is 0.754758.
+// T and L: the shear centre is where the middle lines meet; I: h I_top / (I_top + I_bottom) from the lower flange.
+// CHAN: b^2 h^2 t / (4 I) from the middle of the web, HAT: b (3 h^2 b + 6 h^2 c - 8 c^3) / (h^3 + 6 h^2 b + 6 h^2 c + 8
+// c^3 + 12 h c^2) (Gere & Goodno, Mechanics of materials, 9th ed., ch. 6.9 and problems). CHAN2 and PBEAM: the channel
+// of 11 x 2 x 1/8 of a public deck that Femap made, whose N2(A) is 0.754758.
 TEST_CASE("the centroid of a PBEAML lies beside its line of shear centres, that of a PBARL in its line") {
   const auto centroid = [](const std::string& card) {
     return read("shape.bdf", with_beam(card)).deck.beam_sections.at(0).centroid;
   };
   const double t = -(180. + 891) / 174 + 1.5;
+  const double second = 2 * 27 * 27 * 27 / 12. + 2 * 19 * 3 * 13.5 * 13.5;  // of the middle lines
+  const double channel = 1248. / 168 - 1 + 19 * 19 * 27 * 27 * 3 / (4 * second);
+  const double uneven = (60 * 1.5 + 66 * 19.5 + 120 * 38) / 246 - 1.5 - 36.5 * 9 / 11;
   const double b = 28, h = 23, c = 11;
   const double hat = b * (3 * h * h * b + 6 * h * h * c - 8 * c * c * c) /
                      (h * h * h + 6 * h * h * b + 6 * h * h * c + 8 * c * c * c + 12 * h * c * c);
@@ -66,6 +69,10 @@ TEST_CASE("the centroid of a PBEAML lies beside its line of shear centres, that 
       {"L\n,20.,30.,3.,2.", {(60 * 1.5 + 54 * 16.5) / 114 - 1.5, (60 * 10. + 54) / 114 - 1}},
       {"CHAN2\n,.125,.125,2.,11.", {0.754758, 0}},
       {"HAT\n,30.,2.,25.,10.", {hat_centre - 29 - hat, 0}},
+      {"CHAN1\n,18.,2.,24.,30.", {0, channel}},
+      {"CHAN\n,20.,30.,2.,3.", {0, channel}},
+      {"T1\n,30.,20.,3.,2.", {0, (90 * 1.5 - 40 * 10.) / 130 - 1.5}},
+      {"I\n,40.,20.,30.,2.,3.,4.", {uneven, 0}},
       {"I\n,40.,20.,20.,2.,3.,3.", {0, 0}},
       {"Z\n,20.,2.,24.,30.", {0, 0}},
       {"CROSS\n,20.,3.,30.,2.", {0, 0}},
@@ -84,9 +91,26 @@ TEST_CASE("the centroid of a PBEAML lies beside its line of shear centres, that 
   CHECK(*section.centroid == Eigen::Vector2d(0, 0.754758));
   CHECK((section.fibres.at(1) - Eigen::Vector2d(-5.5, 0.438021 - 0.754758)).norm() < 1e-12);  // given from the axis
   CHECK(said(with_beam(beam + ",.1\n")) == "nothing was thrown");  // of no nonstructural mass
-  const std::string heavy = "PBEAM,5,1,1.,1.,1.,0.,1.,2.\n,YESA,1.\n,,,,,,,,\n,.1\n";
-  CHECK_THAT(said(with_beam(heavy)), Contains("is an offset of the nonstructural mass, which is not read"));
+  CHECK(section.fibres.size() == 2);
+  const std::string heavy = "PBEAM,5,1,1.,1.,1.,0.,1.,2.\n,YESA,1.\n,,,,,,,,\n,";
+  CHECK_THAT(said(with_beam(heavy + ".1\n")), Contains("is an offset of the nonstructural mass that is not"));
+  CHECK(said(with_beam(heavy + ".1,,,,.1\n")) == "nothing was thrown");
+  CHECK_THAT(all_of(read("heavy.bdf", with_beam(heavy + ",,,,.1\n")).notices),
+             Contains("PBEAM M1, M2 is ignored: the nonstructural mass is at the centroid"));
   CHECK_THAT(said(with_beam(beam + ",,,,,,.75,,.5\n")), Contains("another offset of the neutral axis than at end A"));
+}
+
+TEST_CASE("pieces of a PBEAML from an I of equal flanges to one of others keep their axes") {
+  const auto file = read("uneven.bdf", square +
+                                           "CBEAM,9,5,1,2,0.,0.,1.\nPBEAML,5,1,,I\n,40.,20.,20.,2.,3.,3.,,YES\n"
+                                           ",1.,40.,20.,20.02,2.,3.,3.\n");
+  REQUIRE(file.deck.beam_sections.size() == 4);
+  for (const auto& piece : file.deck.beam_sections) {
+    CHECK(!piece.quarter_turn);
+    CHECK(piece.dimensions.at(3) > 4 * piece.dimensions.at(1));  // I1 in the plane of the web
+    REQUIRE(piece.centroid);
+    CHECK(piece.centroid->x() < 0);
+  }
 }
 
 TEST_CASE("a beam with taper is pieces of the sections in their middles") {
@@ -193,14 +217,14 @@ TEST_CASE("stress points of PBAR and PBEAM are fibres, and shapes have a torsion
   CHECK(section("PBARL,5,1,,T\n,40.,30.,3.,2.\n").torsion_modulus == Approx((40 * 27 + 28.5 * 8) / 9));
   CHECK(section("PBARL,5,1,,BOX1\n,40.,30.,2.,3.,4.,5.\n").torsion_modulus == Approx(2 * 35.5 * 27.5 * 2));
   const auto bar = section("PBAR,5,1,100.,900.,800.,700.\n,5.,1.,-5.,2.\n").fibres;
-  REQUIRE(bar.size() == 4);
+  REQUIRE(bar.size() == 2);  // of four pairs of which two are blank
   CHECK(bar[1] == Eigen::Vector2d(-5, 2));
   CHECK(section("PBAR,5,1,100.,900.,800.,700.\n,0.,0.,0.,0.,0.,0.,0.,0.\n").fibres.empty());
   CHECK(section("PBAR,5,1,100.,900.,800.,700.\n").fibres.empty());
   const auto beam = section("PBEAM,5,1,100.,900.,800.,0.,700.\n,5.,1.\n,YES,1.\n,8.,2.\n").fibres;
-  REQUIRE(beam.size() == 8);  // of both ends
+  REQUIRE(beam.size() == 2);  // of both ends
   CHECK(beam[0] == Eigen::Vector2d(5, 1));
-  CHECK(beam[4] == Eigen::Vector2d(8, 2));
+  CHECK(beam[1] == Eigen::Vector2d(8, 2));
 }
 
 TEST_CASE("the scene has sections for elements without a property, and instead of one that is not read") {
@@ -235,4 +259,6 @@ TEST_CASE("E and G of a MAT1 need no nu for beams") {
   const std::string soft = "MAT1,7,2.1+11,1.+9,104.,7800.\n", beam = "CBAR,9,5,1,2,0.,0.,1.\nPBAR,5,7,1.,1.,1.,1.\n";
   const auto file = read("soft.bdf", square + soft + beam);
   CHECK(file.deck.beam_sections.at(0).shear == 1e9);
+  CHECK_THAT(said(square + soft + "CTRIA3,2,4,1,2,3\nPSHELL,4,7,.01\n"),
+             Contains("PSHELL4 names MAT1 7, whose nu is 104; expected one between -1 and 1/2"));
 }
