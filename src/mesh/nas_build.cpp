@@ -221,9 +221,9 @@ void NasBuild::report_unused() {
     notices.push_back(faults_.text_of({0, 1}) + ": " + counted(count, "element") + " of part " + part +
                       " with the section of the scene: the deck does not have the property");
   if (varying_shells_ > 0)
-    notices.push_back(
-        faults_.text_of({0, 1}) + ": " + counted(varying_shells_, "shell") +
-        " of varying thickness: membrane and mass by the mean of the corners, bending by that of the cubes");
+    notices.push_back(faults_.text_of({0, 1}) + ": " + counted(varying_shells_, "shell") +
+                      " of varying thickness: membrane and mass by the mean of the corners, bending by that of the "
+                      "cubes, stresses where it is thickest");
   if (!unused.empty()) notices.push_back(faults_.text_of({0, 1}) + ": not used by any element: " + listed(unused));
 }
 

@@ -150,9 +150,7 @@ CornerThickness NasBuild::thickness_of(const NasShell& shell, const NasShellProp
   std::array<double, 4> corners{};
   for (int i = 0; i < shell.count; ++i)
     corners[i] = !shell.thicknesses[i] ? given : shell.ratio ? given * *shell.thicknesses[i] : *shell.thicknesses[i];
-  const std::span<const double> own(corners.data(), shell.count);
-  if (std::all_of(own.begin(), own.end(), [](double t) { return t == 0; })) return {given};
-  return corner_thickness(own);
+  return corner_thickness(std::span<const double>(corners.data(), shell.count));
 }
 
 void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& property, const CornerThickness& own,
@@ -200,7 +198,7 @@ void NasBuild::add_shells() {
     int part = -1;
     if (own) {
       const CornerThickness thickness = thickness_of(shell, *own);
-      varying_shells_ += thickness.taper != 1;
+      varying_shells_ += thickness.taper != 1 && !replaced(own->name);
       Eigen::Vector3d axis = Eigen::Vector3d::Zero();
       if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
       part = part_of(shell.property,

@@ -158,6 +158,7 @@ void read_pbeam(NasReader& r) {
   };
   take(at_a, property);
   NasTaper taper(at_a);
+  bool heavy = at_a[5] != 0;
   const auto station = [&](std::size_t i) {
     const std::string word = upper(card.text(i));
     return word == "YES" || word == "YESA" || word == "NO";
@@ -172,6 +173,7 @@ void read_pbeam(NasReader& r) {
     std::vector<std::optional<double>> values(at_a.size());
     for (int i = 0; i < 6; ++i)
       if (!card.blank(next + 2 + i)) values[i] = r.card.real(next + 2 + i, names[i]);
+    heavy = heavy || values[5].value_or(0) != 0;
     taper.add(r.card.real(next + 1, "a position along the length (X/XB)", 1), values);
     const bool with_points = upper(card.text(next)) == "YES";
     if (with_points) take_points(next + 8);
@@ -179,7 +181,7 @@ void read_pbeam(NasReader& r) {
   }
   taper.complete(r.card);
   const bool varies = r.card.good() && taper.varies();
-  read_after_stations(r, next, at_a[5] != 0 || varies, property);
+  read_after_stations(r, next, heavy, property);
   for (Eigen::Vector2d& point : points) point -= property.section.centroid.value_or(Eigen::Vector2d::Zero());
   if (!varies) property.section.fibres = points;
   if (r.card.good() && varies) taper.divide(property, take), release_whole(r.card, property);
@@ -207,7 +209,6 @@ void read_pbarl(NasReader& r) {
   };
   take(d, property);
   NasTaper taper(d);
-  if (property.section.centroid && d.back() != 0) r.count_ignored("axis of the NSM of PBEAML");
   if (card.name == "PBEAML")
     for (std::size_t i = 9 + count; i < card.fields.size() && !card.blank_from(i); i += 2 + d.size()) {
       std::vector<std::optional<double>> values(d.size());
@@ -220,6 +221,9 @@ void read_pbarl(NasReader& r) {
     }
   taper.complete(r.card);
   if (r.card.good() && taper.varies()) taper.divide(property, take);
+  const auto beside = [](const NasBeamProperty& of) { return of.section.centroid && of.extra != 0; };
+  if (beside(property) || std::any_of(property.pieces.begin(), property.pieces.end(), beside))
+    r.count_ignored("axis of the NSM of PBEAML");
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 

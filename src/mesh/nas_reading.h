@@ -31,7 +31,9 @@ struct NasShell {
   std::array<long long, 4> middles{-1, -1, -1, -1};  // of its edges from each corner to the next; of second order alone
   bool quadratic = false;
   bool has_thickness() const {
-    return std::any_of(thicknesses.begin(), thicknesses.end(), [](const auto& t) { return t.value_or(0) > 0; });
+    const auto end = thicknesses.begin() + count;  // all zero is none, too
+    return std::any_of(thicknesses.begin(), end, [](const auto& t) { return t.has_value(); }) &&
+           !std::all_of(thicknesses.begin(), end, [](const auto& t) { return t == 0.0; });
   }
 };
 

@@ -119,7 +119,7 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
         directed || !orientation.empty() ? axis_named(reader, orientation) : Eigen::Vector3d::Zero());
     if (section.shear > 0) shell.shear = section.shear;
     deck.parts[section.number] = shell;
-    std::vector<fem::Ply> thickest = plies;  // where its bending stress is greatest
+    std::vector<fem::Ply> thickest = plies;  // where a curvature stresses it most
     for (fem::Ply& ply : thickest) ply.thickness *= section.thickest;
     deck.points[section.number] = {fem::shell_layers(thickest, -section.offset * thickness)};
     if (section.bending) bend(reader, section, plies, deck);

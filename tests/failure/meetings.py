@@ -198,8 +198,10 @@ def two_that_write_one_file(floe, ranks, folder):
         first.until((folder / f".{name}.lock").exists, "its lock")
         for pid in first.members():  # which might end before the second one begins
             os.kill(pid, signal.SIGSTOP)
-        Process(floe, ranks, folder, *words, name="two").ends(2, HELD)
-        first.kill()
+        try:
+            Process(floe, ranks, folder, *words, name="two").ends(2, HELD)
+        finally:
+            first.kill()
         Process(floe, ranks, folder, *words, name="three").ends(0)
         assert (folder / name).exists() and not (folder / f".{name}.lock").exists()
 

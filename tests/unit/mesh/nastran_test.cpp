@@ -82,6 +82,11 @@ TEST_CASE("shell elements of one property that differ are parts of the same name
   REQUIRE(edge.deck.shell_sections.size() == 2);
   CHECK(edge.deck.shell_sections[0].plies[0].thickness == Approx(0.025));  // the others have that of the PSHELL, 0.01
   CHECK(edge.deck.shell_sections[1].plies[0].thickness == Approx(0.01));
+  const auto bevel = read("bevel.bdf", grids + "CQUAD4,1,3,1,2,3,4\n,,,0.,0.\n" + skin).deck.shell_sections.at(0);
+  CHECK(bevel.plies[0].thickness == Approx(0.005));
+  CHECK(bevel.taper == Approx(2));
+  const auto none = read("zeros.bdf", grids + "CQUAD4,1,3,1,2,3,4\n,,,0.,0.,0.,0.\n" + skin).deck.shell_sections.at(0);
+  CHECK(none.plies[0].thickness == Approx(0.01));
   CHECK(edge.deck.shell_sections[1].taper == Approx(2.7));  // t^3 / 10 of a third
 }
 
