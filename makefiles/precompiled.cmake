@@ -2,8 +2,8 @@
 # (with Catch2) for tests. They only save time (a third to a half a file): every file still includes what it uses, which
 # a build with -DFLOE_PRECOMPILE=OFF checks (make lint configures one).
 set(FLOE_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numeric> <optional> <set>
-  <span> <sstream> <string> <tuple> <utility> <variant> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>
-  <petscts.h> <slepceps.h>)
+  <span> <sstream> <string> <tuple> <utility> <variant> <vector> <floe/math/compiled_eigen.h> <fmt/format.h> <petscts.h>
+  <slepceps.h>)
 
 function(floe_precompiled_header name)
   file(WRITE ${PROJECT_BINARY_DIR}/${name}.cpp.new "")

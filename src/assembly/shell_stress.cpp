@@ -129,7 +129,8 @@ VectorXd simpler_weights(const Cloud& cloud) {
   B << VectorXd::Ones(n), x.transpose();
   if (VectorXd w = fit(B, cloud.shares); w.size() > 0) return w;
   const Eigen::Matrix2Xd centred = x.colwise() - x.rowwise().mean().eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(centred * centred.transpose());
+  const Eigen::Matrix2d second = centred * centred.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(second);
   const VectorXd along = x.transpose() * spread.eigenvectors().col(1);
   B << VectorXd::Ones(n), along, along.cwiseAbs2();
   for (const Eigen::Index columns : {3, 2, 1})

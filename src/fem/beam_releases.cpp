@@ -9,7 +9,8 @@ namespace {
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) {
   constexpr double least = 1e-10;  // of the scaled matrix: a direction without stiffness
   const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * A * scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd inverse =
       eigen.eigenvalues().unaryExpr([&](double value) { return value > least ? 1 / value : 0.0; });
   return scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() *

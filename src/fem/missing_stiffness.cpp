@@ -133,8 +133,8 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBea
   Matrix12 A = Matrix12::Zero();
   for (const spatial::BeamStation& g : spatial::beam_gauss3)
     A += g.weight * frame.length * coupling_at(g.at, frame, beam.section, own);
-  const Vector12 moments =
-      to_own.transpose().inverse() * (fixed_spatial_beam(place, beam.section, beam.strain.wagner).bending * q);
+  const VectorXd force = fixed_spatial_beam(place, beam.section, beam.strain.wagner).bending * q;
+  const VectorXd moments = MatrixXd(to_own.transpose()).partialPivLu().solve(force);
   for (int node = 0; node < 12; node += 6) {  // slopes at the nodes from their rotation vectors
     const double y = moments[node + 4] / 2, z = moments[node + 5] / 2;
     A(node + 3, node + 4) += z, A(node + 4, node + 3) += z;

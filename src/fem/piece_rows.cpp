@@ -19,7 +19,8 @@ Eigen::MatrixXd root(const Eigen::MatrixXd& S) {
   if (S.size() == 1) return S.cwiseSqrt();
   const Eigen::VectorXd size = S.diagonal().cwiseMax(0).cwiseSqrt(),
                         inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * S * inverse.asDiagonal());
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * S * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose() *
          size.asDiagonal();
 }

@@ -79,7 +79,7 @@ TiedMembrane::TiedMembrane(const Element& e) : axis(e.section.axis) {
     from_ties.row(k) << x * x, y * y, x * y, tie.at[0].x() * Eigen::RowVector3d(x * x, y * y, x * y),
         tie.at[0].y() * Eigen::RowVector3d(x * x, y * y, x * y);
   }
-  from_ties = from_ties.inverse().eval();
+  from_ties = Eigen::MatrixXd(from_ties).inverse();
 }
 
 Strains3 tied_membrane(const Element& e, const Eigen::Matrix<double, 3, 9>& T) {

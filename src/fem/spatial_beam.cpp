@@ -11,7 +11,8 @@ std::vector<SectionPoint> spatial::section_points(const SpatialBeamSection& sect
   if (section.rhoA == 0) return {};
   Eigen::Matrix2d second;
   second << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(second / section.rhoA);
+  second /= section.rhoA;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(second);
   const Eigen::Vector2d& s = principal.eigenvalues();
   const auto counts = [&](int i) { return s[i] > 1e-14 * s[1]; };
   const int n = counts(0) + counts(1);

@@ -153,7 +153,8 @@ MatrixXd fewer_squares(const body::Elasticity& e, const std::vector<Sample>& sam
   VectorXd squares = VectorXd::Zero(count);
   for (const Sample& sample : samples) squares += (monomials(e, sample.q) / sample.q.norm()).cwiseAbs2();
   const MatrixXd others = F.bottomRightCorner(F.rows() - rank, count);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> main(others * squares.asDiagonal() * others.transpose());
+  const MatrixXd weighted = others * squares.asDiagonal() * others.transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> main(weighted);
   const MatrixXd rotated = main.eigenvectors().transpose() * others;
   const std::vector<char> stays = kept(of_squares(rotated, e, samples), share);
   Index rows = rank;

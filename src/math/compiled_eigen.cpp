@@ -1,0 +1,2 @@
+#define FLOE_EIGEN_TEMPLATE template
+#include <floe/math/compiled_eigen.h>
