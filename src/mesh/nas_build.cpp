@@ -220,6 +220,9 @@ void NasBuild::report_unused() {
   for (const auto& [part, count] : without_property_)
     notices.push_back(faults_.text_of({0, 1}) + ": " + counted(count, "element") + " of part " + part +
                       " with the section of the scene: the deck does not have the property");
+  if (without_thickness_ > 0)
+    notices.push_back(faults_.text_of({0, 1}) + ": " + counted(without_thickness_, "shell") +
+                      " with the section of the scene: neither elements nor PSHELL have a thickness");
   if (varying_shells_ > 0)
     notices.push_back(faults_.text_of({0, 1}) + ": " + counted(varying_shells_, "shell") +
                       " of varying thickness: membrane and mass by the mean of the corners, bending by that of the "

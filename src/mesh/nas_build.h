@@ -71,6 +71,7 @@ class NasBuild {
   bool replaced(const std::string& part) const;
   /// The part of an element without property; -1: it cannot have the scene's section.
   /// @param plain  it has no thickness, offset of its surface or free end of its own, and is no rod
+  int part_without_thickness(const NasShell& shell, const NasShellProperty& property);
   int part_of_scene(CellKind kind, long long property, long long element, bool plain, Where where);
   template <class Map>
   const typename Map::mapped_type* property(const Map& all, long long id, Where where, const std::string& element);
@@ -115,6 +116,7 @@ class NasBuild {
   std::map<std::size_t, unsigned> released_;  // of beams at links that leave rotations free, as NasBeam::releases
   std::vector<long long> used_materials_, used_properties_;
   long long varying_shells_ = 0;                       // whose thickness varies between their corners
+  long long without_thickness_ = 0;                    // shells that have the scene's section for want of one
   std::map<std::string, long long> without_property_;  // elements of parts that have the scene's section
 };
 

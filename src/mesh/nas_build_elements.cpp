@@ -38,8 +38,9 @@ const NasMaterial* NasBuild::material(long long id, Where where, const std::stri
     return &found->second;
   }
   if (const auto other = model_.other_materials.find(id); other != model_.other_materials.end()) {
+    const bool bare = other->second.starts_with("MAT1 ");
     faults_.add(where, user + " names material " + std::to_string(id) + ", a " + other->second +
-                           ", which is not read; use MAT1, MAT8 or MAT2");
+                           (bare ? "" : ", which is not read; use MAT1, MAT8 or MAT2"));
     return nullptr;
   }
   std::vector<std::string> known;
@@ -188,6 +189,18 @@ void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& 
   deck.shell_sections.push_back(section);
 }
 
+int NasBuild::part_without_thickness(const NasShell& shell, const NasShellProperty& property) {
+  if (scene_has_sections()) {
+    without_thickness_ += !replaced(property.name);
+    return part_of(shell.property, {}, property.name, [](int) {});
+  }
+  faults_.add(shell.where,
+              fmt::format("shell {}: neither the element nor {} has a thickness; expected T, T1 to T4, or a "
+                          "section of the scene",
+                          shell.id, property.name));
+  return -1;
+}
+
 void NasBuild::add_shells() {
   for (std::size_t i = 0; i < model_.shells.size(); ++i) {
     const NasShell& shell = model_.shells[i];
@@ -196,7 +209,9 @@ void NasBuild::add_shells() {
     const CellKind kind = shell.count == 3 ? (shell.quadratic ? CellKind::triangle6 : CellKind::triangle)
                                            : (shell.quadratic ? CellKind::quadrilateral8 : CellKind::quadrilateral);
     int part = -1;
-    if (own) {
+    if (own && own->plies.size() == 1 && own->plies[0].thickness == 0 && !shell.has_thickness()) {
+      part = part_without_thickness(shell, *own);
+    } else if (own) {
       const CornerThickness thickness = thickness_of(shell, *own);
       varying_shells_ += thickness.taper != 1 && !replaced(own->name);
       Eigen::Vector3d axis = Eigen::Vector3d::Zero();

@@ -10,6 +10,11 @@ void read_mat1(NasReader& r) {
   const long long id = r.card.integer(0, "the material's number");
   NasMaterial found{{r.named("MAT1_", id), Elasticity::isotropic, {}, r.card.real(4, "a density", 0)}, 0, r.where()};
   double e = r.card.real(1, "E", 0), g = r.card.real(2, "G", 0), nu = r.card.real(3, "nu", 0);
+  if (e == 0 && g == 0) {
+    const std::string name = "MAT1 without E and G";
+    r.count_ignored(name);
+    return r.define(r.model.other_materials, id, std::string(name), "material");
+  }
   const int given = !card.blank(1) + !card.blank(2) + !card.blank(3);
   if (given < 2 && !(given == 1 && !card.blank(1))) r.card.refuse(1, "to 4 expect two of E, G and nu");
   if (card.blank(1)) e = 2 * g * (1 + nu);

@@ -8,9 +8,13 @@
 
 namespace floe::mesh {
 void read_pshell(NasReader& r) {
-  const long long id = r.card.integer(0, "the property's number"), material = r.card.integer(1, "a material (MID1)");
+  const long long id = r.card.integer(0, "the property's number");
+  const double thickness = r.card.real(2, "a thickness", 0);  // 0: of the elements, or of the scene
+  if (thickness < 0) r.card.refuse(2, "expects a thickness that is not negative");
+  const long long material =
+      thickness > 0 ? r.card.integer(1, "a material (MID1)") : r.card.integer(1, "a material (MID1)", 0);
   NasShellProperty property{r.named("PSHELL", id), {}, {}, 0, r.where()};
-  property.plies.push_back({material, r.card.positive(2, "a thickness"), 0});
+  property.plies.push_back({material, thickness, 0});
   const long long bending = r.card.integer(3, "a material (MID2)", 0);
   if (bending < 0) r.card.refuse(3, "(MID2: -1, plane strain) is not read; expected a material");
   if (bending == 0) r.count_ignored("PSHELL without MID2 (membranes)");

@@ -7,11 +7,11 @@ namespace {
 void read_spc(NasReader& r) {
   const auto& card = r.card.card;
   r.count_ignored(card.name);
-  const long long set = r.card.integer(0, "the set's number");
+  const long long set = r.card.integer(0, "the set's number", 0);
   auto& nodes = r.model.supports[set];
   if (card.name == "SPC") {
-    for (std::size_t i : {1, 4})
-      if (!card.blank(i)) nodes.emplace_back(r.card.integer(i, "a grid"), r.where());
+    for (std::size_t i : {1, 4})  // some programs write 0 where there is no second grid
+      if (const long long grid = r.card.integer(i, "a grid", 0); grid != 0) nodes.emplace_back(grid, r.where());
     return;
   }
   if (upper(card.text(3)) == "THRU") {
@@ -122,7 +122,7 @@ const std::map<std::string, std::string>& nas_ignored() {
          "SECSET",  "SECSET1", "SEUSET",  "SEUSET1", "SESUP",   "SELABEL", "SEBNDRY", "SETREE",  "SELOAD",  "SEEXCLD",
          "RVDOF",   "RVDOF1",  "BNDFREE", "BNDFRE1", "BNDFIX",  "BNDFIX1", "MASSSET", "SET2",    "OUTPUT",  "OUTRCV",
          "GMBC",    "GMLOAD",  "FEEDGE",  "FEFACE",  "FECURV",  "GMCURV",  "GMSURF",  "RANDVAR", "PRESPT",  "FREQ5",
-         "RCROSS",  "RCROSSC", "DYNRED",  "TEMPAX",  "POINT",   "ADAPT",   "EIGRAL"}},
+         "RCROSS",  "RCROSSC", "DYNRED",  "TEMPAX",  "POINT",   "ADAPT",   "EIGRAL",  "DEBUG"}},
        {"loads are those of the scene",
         {"FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4", "PLOADB3",
          "GRAV",   "ACCEL",  "ACCEL1", "RFORCE", "LOAD",    "TEMP",    "TEMPD", "TEMPP1", "TEMPRB", "SLOAD",  "DAREA",
@@ -145,9 +145,10 @@ const std::map<std::string, std::string>& nas_ignored() {
         {"ROTORG", "ROTORD", "ROTORSE", "RGYRO", "RSPINR", "RSPINT", "UNBALNC"}},
        {"a point without coordinates is no node of the body", {"SPOINT", "EPOINT"}},
        {"contact is not represented",
-        {"CGAP",    "BCTABLE", "BCBODY",  "BCONP",  "BSURF",   "BSURFS", "BCTSET",  "BCTADD",
-         "BCTPARM", "BCPARA",  "BCBDPRP", "BCPROP", "BLSEG",   "BFRIC",  "BCTPARA", "BCRPARA",
-         "CONTACT", "BGSET",   "BGADD",   "BGPARM", "BCONPRG", "BCONPRP"}},
+        {"CGAP",    "BCTABLE", "BCBODY",  "BCONP",   "BSURF",   "BSURFS",  "BCTSET",  "BCTADD",  "BCTPARM", "BCPARA",
+         "BCBDPRP", "BCPROP",  "BLSEG",   "BFRIC",   "BCTPARA", "BCRPARA", "CONTACT", "BGSET",   "BGADD",   "BGPARM",
+         "BCONPRG", "BCONPRP", "BCTABL1", "BCBODY1", "BCONECT", "BCMOVE",  "BCRIGID", "BCRGSRF", "BCPATCH", "BCBZIER",
+         "BCNURBS", "BCNURB2", "BCAUTOP", "BCSCAP",  "BCGRID",  "BCHANGE", "BCSEG",   "BCONUDS", "BSQUEAL"}},
        {"matrices of a file are not added", {"DMIG", "DMI", "DMIK", "DMIJ"}},
        {"aerodynamic forces are those of the scene",
         {"AERO",    "AEROS",   "CAERO1",  "CAERO2",  "PAERO1",  "PAERO2",  "SPLINE1", "SPLINE2", "AEFACT",
@@ -212,6 +213,7 @@ std::string nas_reason(const std::string& name) {
       {"PBEAM NSI", "the nonstructural mass is spread over the section"},
       {"PBEAM CW", "beams have no warping stiffness"},
       {"CBEAM SA, SB", "beams have no warping stiffness"},
+      {"MAT1 without E and G", "no shell or beam uses it"},
       {"MAT3", "no shell or beam uses it"},
       {"MAT9", "no shell or beam uses it"},
       {"MAT10", "no shell or beam uses it"},

@@ -4,7 +4,7 @@
     tests/decks/scan.py FLOE FOLDER [--ignore-others] [--table PAGE]
 
 Decks with shells or beams count (.inp, .bdf, .nas, .dat; also .gz). Each is read by `floe modes` of a scene with one
-free body, two modes. --ignore-others leaves out solids, springs and the like. --table writes a line for each
+free body, two modes; where the deck has no section for some elements, the scene gives one. --ignore-others leaves out solids, springs and the like. --table writes a line for each
 deck between the marks `<!-- decks -->` and `<!-- end of decks -->` of a page: elements, read or why not, and the first
 frequency of the body without supports beside that of CalculiX (ccx) on its elements alone: without steps, supports,
 links and what floe ignores, of decks with at least 20 shells and beams. There materials without *DENSITY have 1, in both programs."""
@@ -31,16 +31,29 @@ def reason_of(message):
     """The first line without places and names."""
     line = re.sub(r"^floe: |^error: ", "", message.strip().splitlines()[0] if message.strip() else "(nothing)")
     line = re.sub(r"^\S*scene\.yaml:\d+:\d+: [\w.]+: ", "", line)  # the place in the scene, before that in the deck
-    line = re.sub(r"^\S*deck\.\w+(:\d+)?: ", "", line)
+    line = re.sub(r"^.*?\.(inp|bdf|nas|dat)(:\d+)?: ", "", line)
     line = re.sub(r"\(B31,.*\)|; to leave .*", "", line).strip()
     return re.sub(r"\b(element|node|nodes|elements) \d+", r"\1 N", line)[:150]
 
 
-def read(floe, path, deck, others):
+SECTIONS = ["section: {thickness: 0.01}", "section: {shape: rectangle, width: 0.01, height: 0.01}"]
+
+
+def read_anyhow(floe, path, deck, others):
+    """None where it is read, perhaps with a section of the scene, else the reason without one; and whether it took one."""
+    reason = read(floe, path, deck, others)
+    if reason and re.search("has no section|property \\d+, which is not defined|has a thickness;", reason):
+        for section in SECTIONS:
+            if read(floe, path, deck, others, f"    {section}\n    material: {{E: 2e11, nu: 0.3, rho: 7800}}\n") is None:
+                return None, True
+    return reason, False
+
+
+def read(floe, path, deck, others, section=""):
     """None where it is read, else the reason."""
     scene = path / "scene.yaml"
-    scene.write_text("bodies:\n  body:\n    frame: mean-axis\n    reduction: {modes: 2}\n    mesh: {file: {path: %s%s}}\n"
-                     % (deck, ", ignore: [%s]" % OTHERS if others else ""))
+    scene.write_text("bodies:\n  body:\n    frame: mean-axis\n    reduction: {modes: 2}\n%s    mesh: {file: {path: \"%s\"%s}}\n"
+                     % (section, deck, ", ignore: [%s]" % OTHERS if others else ""))
     try:
         done = subprocess.run([floe, "modes", str(scene)], capture_output=True, text=True, timeout=120, errors="replace")
     except subprocess.TimeoutExpired:
@@ -51,7 +64,7 @@ def read(floe, path, deck, others):
 
 
 def decks(folder):
-    """Name and text of each deck with shells or beams."""
+    """Name, text and path of each deck with shells or beams."""
     for file in sorted(pathlib.Path(folder).rglob("*")):
         name = file.name.removesuffix(".gz")
         ending = pathlib.Path(name).suffix
@@ -61,7 +74,7 @@ def decks(folder):
         if ending == ".inp" and not any(SHELL_OR_BEAM.match(kind) for kind in types_of(text)):
             continue
         if ending == ".inp" or NASTRAN.search(text.upper()):
-            yield name, text
+            yield name, text, file.resolve()
 
 
 KEPT = {"NODE", "ELEMENT", "NSET", "ELSET", "MATERIAL", "ELASTIC", "DENSITY", "SHELLSECTION", "BEAMSECTION", "BEAMGENERALSECTION",
@@ -134,7 +147,7 @@ def table(floe, folder, page):
     lines = ["| deck | elements | floe | first frequency [Hz] | CalculiX | difference |", "|---|---|---|---|---|---|"]
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        for name, text in decks(folder):
+        for name, text, path in decks(folder):
             deck = "deck" + pathlib.Path(name).suffix
             (scratch / deck).write_text(text)
             words, own, reference = "read", None, None
@@ -162,20 +175,23 @@ def main():
     floe = str(pathlib.Path(floe).resolve())
     if "--table" in flags:
         return table(floe, folder, page[0])
-    read_count, massless, refused = 0, 0, collections.defaultdict(list)
+    read_count, massless, sectionless, refused = 0, 0, 0, collections.defaultdict(list)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        for name, text in decks(folder):
-            deck = "deck" + pathlib.Path(name).suffix
-            (scratch / deck).write_text(text)
-            reason = read(floe, scratch, deck, "--ignore-others" in flags)
+        for name, text, path in decks(folder):
+            deck = str(path)  # beside the files that it includes
+            if path.suffix == ".gz":
+                deck = "deck" + pathlib.Path(name).suffix
+                (scratch / deck).write_text(text)
+            reason, section = read_anyhow(floe, scratch, deck, "--ignore-others" in flags)
             if reason is None or "has mass; expected a material" in reason:
                 read_count += 1
                 massless += reason is not None
+                sectionless += section
             else:
                 refused[reason].append(name)
     total = read_count + sum(map(len, refused.values()))
-    print(f"{read_count} of {total} decks are read ({massless} of them without density).\n\n| decks | refused because | which |\n|---|---|---|")
+    print(f"{read_count} of {total} decks are read ({massless} of them without density, {sectionless} with a section of the scene).\n\n| decks | refused because | which |\n|---|---|---|")
     for reason, names in sorted(refused.items(), key=lambda item: -len(item[1])):
         print(f"| {len(names)} | {reason} | {', '.join(names[:6])}{', ...' if len(names) > 6 else ''} |")
 

@@ -79,8 +79,8 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
        "bad.bdf:9: RBE3 70: reference grid 5 is 0.1 away from the mean of its grids, (0.5, 0, 0)"},
       {"GRID,5,,.5,0.,0.\nRBE3,70,,5,123456,1.,123,1,\n,,3.,123,2\n",
        "bad.bdf:9: RBE3 70: reference grid 5 is 0.25 away from the mean of its grids, (0.75, 0, 0)"},
-      {"PSHELL,4,1,0.,1\n", "PSHELL: field 4 expects a thickness greater than 0"},
-      {"MAT1,4,0.,,.3\n", "expect E and G greater than 0"},
+      {"PSHELL,4,1,-1.,1\n", "PSHELL: field 4 expects a thickness that is not negative"},
+      {"MAT1,4,0.,,.3\nPSHELL,9,4,.1\nCQUAD4,9,9,1,2,3,4\n", "names material 4, a MAT1 without E and G"},
       {"PCOMP,4\n", "PCOMP 4 has no plies"},
       {"SPC1,1,123,88\n", "bad.bdf:8: supports SPC1 name grid 88, which is not defined"},
       {"CONM2,1,88,,1.\n", "grid 88, which is not defined"}};
@@ -110,7 +110,7 @@ TEST_CASE("wrong beams of Nastran are refused with line and field") {
 
 TEST_CASE("constants of Nastran outside their range are refused with field and range") {
   const std::pair<std::string, const char*> after_square[] = {
-      {"MAT1,4\n", "MAT1: field 3 to 4 expect two of E, G and nu"},
+      {"MAT1,4,,,.3\nPBAR,9,4,1.,1.,1.,1.\nCBAR,9,9,1,2,0.,0.,1.\n", "names material 4, a MAT1 without E and G"},
       {"MAT1,4,,1.\n", "expect two of E, G and nu"},
       {"MAT1,4,-1.,,.3\n", "expect E and G greater than 0"},
       {"MAT1,4,1.,-1.\n", "expect E and G greater than 0"},

@@ -239,6 +239,15 @@ TEST_CASE("the scene has sections for elements without a property, and instead o
                                        Contains("1 element of part PBAR5 with"));
   CHECK_THAT(said(bare), Contains("names property 3, which is not defined"));
 
+  const std::string thin = bare + "PSHELL,3,,0.\n";
+  const auto replaced = read("thin.bdf", thin, {{}, true, {}});
+  CHECK(replaced.mesh.parts == std::vector<std::string>{"PSHELL3", "PBAR5"});
+  CHECK_THAT(all_of(replaced.notices), Contains("1 shell with the section of the scene: neither elements nor PSHELL"));
+  CHECK_THAT(said(thin), Contains("shell 1: neither the element nor PSHELL3 has a thickness; expected T, T1 to T4"));
+  const auto by_corners =
+      read("corners.bdf", grids + "CQUAD4,1,3,1,2,3,4\n,,,.1,.1,.1,.1\nPSHELL,3,1\nMAT1,1,1.,,0.\n");
+  CHECK(by_corners.deck.shell_sections.at(0).plies.at(0).thickness == Approx(0.1));
+
   const std::string other = bare + "PSHELL,3,7,.01,7\nPBAR,5,7,1.,1.,1.,1.\n";
   const auto given = read("given.bdf", other, {{"PSHELL3", "PBAR5"}, false, {}});
   CHECK(given.mesh.parts == std::vector<std::string>{"PSHELL3", "PBAR5"});

@@ -223,6 +223,8 @@ TEST_CASE("what is not taken over is counted") {
 TEST_CASE("supports of grids, of GRDSET and of SPC are places") {
   const auto file = read("supports.bdf", "SPC1,7,123456,2,THRU,4\nSPC1,7,123,1,THRU,2\n" + square);
   CHECK(testing::labels_at(file.mesh, "SPC7") == std::vector<long long>{1, 2, 3, 4});
+  const auto zeros = read("zeros.bdf", "DEBUG,200,1\nSPC,0,1,1,0.,0\n" + square);
+  CHECK(testing::labels_at(zeros.mesh, "SPC0") == std::vector<long long>{1});
   const auto own = read("own.bdf", "SPC1,8,123456,3,THRU,9\nGRDSET,,,,,,,345\n" + square +
                                        "GRID,5,,2.,0.,0.,,0\nGRID,6,,2.,1.,0.,,12\nCQUAD4,2,3,2,5,6,3\n");
   CHECK(testing::labels_at(own.mesh, "SPC8") == std::vector<long long>{3, 4, 5, 6});
