@@ -72,7 +72,8 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
                      {},     {},      {},   {},    {}, {}, {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
-    const InpBlocks deck = inp_blocks(path, faults);
+    InpBlocks deck = inp_blocks(path, faults);
+    choose_instance(deck, request, faults, reading.notices);
     read_blocks(deck.blocks, reading);
     refuse_incomplete(deck, reading);
     report_ignored(reading);

@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,9 +30,10 @@ struct InpBlock {
   void each_line(const std::function<void(Where, std::string_view)>& visit) const { each_line(0, lines(), visit); }
 };
 
-/// A deck as blocks, its includes in place; `files` keeps the text that the blocks point to.
+/// A deck as blocks, its includes in place; `files` and `written` keep the text that the blocks point to.
 struct InpBlocks {
   std::vector<std::unique_ptr<MappedFile>> files;
+  std::deque<std::string> written;  // lines that replace those of the files
   std::vector<InpBlock> blocks;
 };
 

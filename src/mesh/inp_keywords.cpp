@@ -13,6 +13,14 @@ struct Keyword {
 
 void nothing(const InpBlock&, InpReading&) {}
 
+/// Without data the nodes after it are in global coordinates, as without it.
+void read_system(const InpBlock& block, InpReading& reading) {
+  if (block.lines() > 0)
+    reading.faults.add(block.where, block.name +
+                                        " is read without data lines: expected nodes in global coordinates, "
+                                        "or an *INSTANCE that is moved");
+}
+
 const std::map<std::string, Keyword>& keywords() {
   static const std::map<std::string, Keyword> all{
       {"NODE", {{"NSET", "SYSTEM"}, nothing}},
@@ -36,10 +44,11 @@ const std::map<std::string, Keyword>& keywords() {
       {"TRANSVERSESHEAR", {{}, read_transverse_shear}},
       {"SPRING", {{"ELSET", "RTOL"}, read_spring}},
       {"BEAMSECTION",
-       {{"ELSET", "MATERIAL", "SECTION", "OFFSET1", "OFFSET2", "TEMPERATURE", "POISSON", "NODALTHICKNESS"},
+       {{"ELSET", "MATERIAL", "SECTION", "OFFSET1", "OFFSET2", "TEMPERATURE", "POISSON", "NODALTHICKNESS", "LUMPED"},
         read_beam_section}},
       {"BEAMGENERALSECTION",
-       {{"ELSET", "MATERIAL", "SECTION", "OFFSET1", "OFFSET2", "DENSITY", "POISSON"}, read_beam_general_section}},
+       {{"ELSET", "MATERIAL", "SECTION", "OFFSET1", "OFFSET2", "DENSITY", "POISSON", "LUMPED"},
+        read_beam_general_section}},
       {"MASS", {{"ELSET", "TYPE"}, read_mass}},
       {"RIGIDBODY",
        {{"NSET", "TIENSET", "REFNODE", "ROTNODE", "ELSET", "PINNSET", "ANALYTICALSURFACE"}, read_rigid_body}},
@@ -53,6 +62,7 @@ const std::map<std::string, Keyword>& keywords() {
         read_tie}},
       {"EQUATION", {{}, read_equation}},
       {"TRANSFORM", {{"NSET", "TYPE"}, read_transform}},
+      {"SYSTEM", {{}, read_system}},
       {"PART", {{"NAME"}, nothing}},
       {"ENDPART", {{}, nothing}},
       {"ASSEMBLY", {{"NAME"}, nothing}},
@@ -188,23 +198,22 @@ void refuse_unknown(const InpBlock& block, Faults& faults) {
   faults.add(block.where, "keyword " + in_quotes(block.name) + " is not read" + suggestion("*" + block.keyword, known));
 }
 
-// *PART, *ASSEMBLY: one part, and no nodes or elements outside it.
-void check_nesting(const InpBlock& block, std::optional<std::string>& part, bool& in_assembly, Faults& faults) {
-  const auto value = [&](const char* key) {
-    const auto found = block.parameters.find(key);
-    return found == block.parameters.end() ? "" : found->second;
-  };
-  if (block.keyword == "PART") {
-    if (part) faults.add(block.where, "a second *PART: one is read, for one body");
-    part = value("NAME");
-  }
-  if (block.keyword == "INSTANCE" && part && upper(value("PART")) != upper(*part))
-    faults.add(block.where, "*INSTANCE of part " + in_quotes(value("PART")) + ", which is not defined; the deck has " +
-                                in_quotes(*part));
-  if (block.keyword == "ASSEMBLY" || block.keyword == "ENDINSTANCE") in_assembly = true;
-  if (block.keyword == "INSTANCE" || block.keyword == "ENDASSEMBLY") in_assembly = false;
-  if (in_assembly && (block.keyword == "NODE" || block.keyword == "ELEMENT"))
-    faults.add(block.where, block.name + " of the *ASSEMBLY is not read: define it in the *PART");
+/// Where the blocks so far end.
+struct Nesting {
+  bool part = false, assembly = false, instance = false;  // one was there, it is open, one was there
+};
+
+// *PART, *ASSEMBLY: one part, no elements outside it, and no nodes that would move with the instance.
+void check_nesting(const InpBlock& block, Nesting& so_far, Faults& faults) {
+  if (block.keyword == "PART" && std::exchange(so_far.part, true))
+    faults.add(block.where, "a second *PART: one is read, for one body");
+  if (block.keyword == "ASSEMBLY" || block.keyword == "ENDINSTANCE") so_far.assembly = true;
+  if (block.keyword == "INSTANCE" || block.keyword == "ENDASSEMBLY") so_far.assembly = false;
+  so_far.instance = so_far.instance || block.keyword == "INSTANCE";
+  const bool early = block.keyword == "NODE" && so_far.assembly && !so_far.instance;
+  if (early || (so_far.assembly && block.keyword == "ELEMENT"))
+    faults.add(block.where, block.name + " of the *ASSEMBLY is not read" +
+                                (early ? " before its *INSTANCE" : ": define it in the *PART"));
 }
 
 void refuse_open_coupling(InpReading& reading) {
@@ -238,8 +247,7 @@ void report_ignored(InpReading& reading) {
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
   InpShares shares = shares_of(blocks, reading.rank, reading.ranks, reading.faults);
   reading.scopes.find(blocks);
-  std::optional<std::string> part;
-  bool in_assembly = false;
+  Nesting nesting;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& block = blocks[i];
     reading.scopes.enter(block.keyword);
@@ -258,7 +266,7 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
       refuse_unknown(block, reading.faults);
       continue;
     }
-    check_nesting(block, part, in_assembly, reading.faults);
+    check_nesting(block, nesting, reading.faults);
     check_parameters(block, keyword->second, reading.faults);
     if (block.keyword == "NODE") read_inp_nodes(block, shares, reading);
     if (block.keyword == "ELEMENT") read_inp_elements(block, shares, reading);

@@ -20,8 +20,9 @@ const std::map<std::string, CellKind>& element_kinds() {
 // Types that differ from one that is read in integration or formulation only.
 const std::map<std::string, std::string>& twins() {
   static const std::map<std::string, std::string> all{
-      {"B31H", "B31"}, {"B31R", "B31"}, {"B33H", "B33"}, {"S4R5", "S4"},   {"S4RS", "S4"},
-      {"S4RSW", "S4"}, {"S3RS", "S3"},  {"B32H", "B32"}, {"STRI65", "S6"}, {"S8R5", "S8R"}};
+      {"B31H", "B31"}, {"B31R", "B31"}, {"B33H", "B33"},  {"S4R5", "S4"},  {"S4RS", "S4"}, {"S4RSW", "S4"},
+      {"S3RS", "S3"},  {"B32H", "B32"}, {"STRI65", "S6"}, {"S8R5", "S8R"}, {"B21", "B31"}, {"B21H", "B31"},
+      {"B22", "B32"},  {"B22H", "B32"}, {"B23", "B33"},   {"B23H", "B33"}};
   return all;
 }
 
@@ -190,8 +191,9 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
                                         " are)" + (other ? "; to leave them out: file: {ignore: [" + type + "]}" : ""));
   }
   if (const auto twin = twins().find(upper(type)); twin != twins().end())
-    reading.notices.push_back(reading.faults.text_of(block.where) + ": elements of type " + type + " are read as " +
-                              twin->second);
+    reading.notices.push_back(
+        reading.faults.text_of(block.where) + ": elements of type " + type + " are read as " + twin->second +
+        (upper(type).starts_with("B2") ? ": beams in space, which the scene may hold in their plane" : ""));
   const auto named = block.parameters.find("ELSET");
   const int set = named == block.parameters.end()
                       ? -1

@@ -192,6 +192,13 @@ struct InpReading {
   int last_shell = -1;             // section of shells that was read last, if no section of beams came after it
 };
 
+/// Leaves out the parts and instances of an assembly but the one asked for (none: the only one), and of the sets,
+/// surfaces and joints of the assembly what names the others: fields of sets, lines of others, which a notice counts.
+/// Nodes of the assembly itself (reference points) get 1000000000 more than their number there, so that they are others
+/// than those of the part. Elements of the assembly of types in request.ignore are left out. Rank-local.
+/// @throws InputError  there are several instances and none is asked for, or not this one; its part is not defined
+void choose_instance(InpBlocks& deck, const DeckRequest& request, Faults& faults, std::vector<std::string>& notices);
+
 /// The records of this rank among all nodes, or all elements, of the deck.
 struct InpShares {
   long long nodes_before = 0, elements_before = 0;  // of the blocks so far

@@ -62,6 +62,7 @@ struct Shape {
 constexpr Shape shapes[] = {{"RECT", Profile::rectangle, 1, 2, "a, b"},
                             {"CIRC", Profile::circle, 1, 2, "a radius, or the diameters along 1 and 2"},
                             {"PIPE", Profile::pipe, 2, 2, "outer radius, wall"},
+                            {"THICK PIPE", Profile::pipe, 2, 2, "outer radius, wall"},
                             {"BOX", Profile::box, 6, 6, "a, b, t1, t2, t3, t4"},
                             {"I", Profile::i_section, 7, 7, "l, h, b1, b2, t1, t2, t3"}};
 

@@ -64,7 +64,7 @@ void refuse_missing(const Body& body, MPI_Comm comm) {
 /// What the scene gives the elements of a deck.
 mesh::DeckRequest request_of(const Body& body) {
   const std::vector<std::string> named = named_parts(body);
-  return {named, named.size() < body.parts.size(), body.mesh.file->ignore};
+  return {named, named.size() < body.parts.size(), body.mesh.file->ignore, body.mesh.file->instance};
 }
 
 /// Beams with released ends remain whole, as halves would be released, too; rods are divided where a shell holds the
@@ -116,6 +116,9 @@ Source read_file(const Body& body, MPI_Comm comm) {
   Source source;
   const bool gmsh = file.path.ends_with(".msh"), inp = file.path.ends_with(".inp"),
              nastran = mesh::is_nastran(file.path);
+  if (!inp && !file.instance.empty())
+    throw InputError(fmt::format("{}.file.instance: is \"{}\"; only decks of Abaqus (.inp) have instances",
+                                 body.mesh.where.text(), file.instance));
   if (gmsh || inp || nastran) refuse_missing(body, comm);
   if (gmsh) {
     mesh::GmshFile read = mesh::read_gmsh(comm, file.path, request_of(body).parts, request_of(body).section);

@@ -99,7 +99,8 @@ void read_plate(Document& document, const Value& value, MeshSpec& mesh) {
 
 void read_file(Document& document, const Value& value, MeshSpec& mesh) {
   Reading reading(document, value, "file");
-  mesh.file = MeshFileSpec{reading.text("path"), {}, reading.number("scale"), reading.integer("refine")};
+  mesh.file = MeshFileSpec{
+      reading.text("path"), {}, reading.text("instance"), reading.number("scale"), reading.integer("refine")};
   if (const auto ignore = reading.value("ignore"))
     mesh.file->ignore = read_texts(document, *ignore, reading.key("ignore"));
   mesh.file->path = document.beside(mesh.file->path);

@@ -37,6 +37,7 @@ const SchemaSection file_section{
          positive},
         {"ignore", Type::texts, "", "",
          "decks: types of elements that are left out with the nodes that only they use, as C3D20R or CTETRA"},
+        {"instance", Type::text, "", "", "decks of Abaqus with several instances: the one that the body is"},
         {"refine",
          Type::integer,
          "",

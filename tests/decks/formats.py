@@ -148,6 +148,17 @@ def moved(model):
             f"0., 0., 0., 1., 1., 0., 70.\n*END INSTANCE\n*END ASSEMBLY\n*MATERIAL{materials}*STEP{step}")
 
 
+def one_of_two(model):
+    """The same beside a second instance of it, of another part and tied to it at a place of both."""
+    text = moved(model)
+    second = re.sub(r"(\*SHELL SECTION.*\n).*", r"\g<1>1.", text[text.index("*PART"):text.index("*ASSEMBLY")].replace("NAME=P\n", "NAME=Q\n"))
+    joint = ("*NSET, NSET=HERE, INSTANCE=P-1\n1\n*NSET, NSET=THERE, INSTANCE=Q-1\n2\n*SURFACE, NAME=A, TYPE=NODE\nHERE\n"
+             "*SURFACE, NAME=B, TYPE=NODE\nTHERE\n*TIE, NAME=T\nB, A\n*NODE\n1, 0, 0, 0\n*NSET, NSET=HUB\n1\n"
+             "*COUPLING, REF NODE=HUB, SURFACE=B\n*KINEMATIC\n")
+    return text.replace("*ASSEMBLY", second + "*ASSEMBLY").replace(
+        "*END ASSEMBLY", "*INSTANCE, NAME=Q-1, PART=Q\n*END INSTANCE\n" + joint + "*END ASSEMBLY")
+
+
 def rigid_end(model, columns, rows):
     """The plate, clamped at x = 0, with its last two columns of nodes rigidly on a mass beside it."""
     nodes = dict(model["nodes"])
@@ -209,7 +220,7 @@ def msh(model):
     return text + f"$EndNodes\n$Elements\n{len(rows)}\n" + "".join(f"{i + 1} {r}\n" for i, r in enumerate(rows)) + "$EndElements\n"
 
 
-def scene(path, model):
+def scene(path, model, instance=None):
     own = ""
     if path.endswith(".msh"):
         material = f"material: {{E: {E}, nu: {NU}, rho: {RHO}}}"
@@ -220,13 +231,14 @@ def scene(path, model):
                 f"      BAR{g}: {{section: {{shape: rectangle, width: {WIDTH}, height: {HEIGHT}, orientation: {list(d)}}}}}\n"
                 for g, d in enumerate(DIRECTIONS))
     held = "joints: {foot: {type: fixed, between: [ground, b.SPC1]}}\n" if model["fixed"] else ""
+    chosen = f", instance: {instance}" if instance else ""
     frame_of = "" if model["fixed"] else "    frame: mean-axis\n"
-    return f"bodies:\n  b:\n    mesh: {{file: {{path: {path}}}}}\n    reduction: {{modes: 10}}\n{frame_of}{own}{held}"
+    return f"bodies:\n  b:\n    mesh: {{file: {{path: {path}{chosen}}}}}\n    reduction: {{modes: 10}}\n{frame_of}{own}{held}"
 
 
-def frequencies(floe, folder, name, text, model):
+def frequencies(floe, folder, name, text, model, instance=None):
     (folder / name).write_text(text)
-    (folder / "scene.yaml").write_text(scene(name, model))
+    (folder / "scene.yaml").write_text(scene(name, model, instance))
     done = subprocess.run([floe, "reduce", "scene.yaml", "--force", "-o", "b.h5"], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, f"{name}: {done.stderr or done.stdout}"
     with h5py.File(folder / "b.h5") as file:
@@ -427,6 +439,7 @@ def main():
             if model["shells"]:
                 found["inp tied"] = frequencies(floe, folder, "tied.inp", tied(model), model)
                 found["inp moved"] = frequencies(floe, folder, "moved.inp", moved(model), model)
+                found["inp instance"] = frequencies(floe, folder, "two.inp", one_of_two(model), model, "p-1")
                 text, bends = by_stiffness(model)
                 found["inp A, B, D"] = frequencies(floe, folder, "stiffness.inp", text, model)
                 found["bdf MID2"] = frequencies(floe, folder, "bends.bdf", bends, model)
@@ -436,7 +449,7 @@ def main():
                 error = max(abs(a / b - 1) for a, b in zip(other, first))
                 # coordinates of 16 characters have 14 digits
                 limit = 1e-10
-                print(f"{name:6s} {form:10s} {error:.1e} of {limit:.0e}")
+                print(f"{name:6s} {form:12s} {error:.1e} of {limit:.0e}")
                 failed |= not error <= limit
             if shutil.which("ccx") and model["shells"]:
                 (own, centre, moments), (mass, other_centre, other) = mass_properties(floe, folder, inp(model)), calculix_mass(folder, inp(model))

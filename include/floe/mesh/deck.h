@@ -64,7 +64,7 @@ struct ShellSection {
   std::optional<ShellBending> bending = {};
   double shear = 0;       // transverse, of elements of second order; 0: as of a homogeneous shell
   double added_mass = 0;  // per area, besides that of the plies, over which it is spread
-  // Of elements whose thickness varies: the mean of t^3 by the third power of the mean t, and the greatest t by the
+  // Of elements whose thickness varies: the mean of t^3 over the third power of the mean t, and the greatest t by the
   // mean.
   double taper = 1, thickest = 1;
 };
@@ -125,6 +125,7 @@ struct DeckRequest {
   std::vector<std::string> parts;   // element sets that the scene gives a section
   bool section = false;             // the scene has a section for all other elements
   std::vector<std::string> ignore;  // types of elements to leave out, with the nodes that only they use
+  std::string instance = {};        // of a deck with several
 };
 
 /// Nodes that move as one rigid body with a reference node, in all six directions but for rotations of their own: about

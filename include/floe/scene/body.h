@@ -48,6 +48,7 @@ struct PlateSpec {
 struct MeshFileSpec {
   std::string path;
   std::vector<std::string> ignore;  ///< of a deck: types of elements that are left out
+  std::string instance = {};        ///< of a deck with several
   double scale = 1;
   int refine = 0;  ///< how many times its elements are halved
 };

@@ -305,6 +305,15 @@ TEST_CASE("elements that have a twin are read as it, with a notice") {
   CHECK_THAT(file.notices.at(0), Contains("twins.inp:13: elements of type B31R are read as B31"));
   REQUIRE(file.deck.beam_sections.size() == 1);
   CHECK(file.deck.beam_sections[0].profile == mesh::Profile::pipe);
+  const auto planar = read(testing::written(
+      "planar.inp",
+      "*NODE\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=B21, ELSET=B\n1, 1, 2\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n"
+      "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=THICK PIPE\n.11, .01\n"));
+  CHECK_THAT(planar.notices.at(0), Contains("planar.inp:4: elements of type B21 are read as B31: beams in space"));
+  CHECK(planar.mesh.cell_count == 1);
+  REQUIRE(planar.deck.beam_sections.size() == 1);
+  CHECK(planar.deck.beam_sections[0].profile == mesh::Profile::pipe);
+  CHECK(planar.deck.beam_sections[0].direction_1 == Eigen::Vector3d(0, 0, -1));
 }
 
 TEST_CASE("a circle of two diameters is an ellipse; keywords of a step may stand outside of one") {

@@ -188,6 +188,8 @@ TEST_CASE("mesh files: missing, of another kind, in pieces") {
                                      ".inp\"; expected one relative to the scene's folder"});
   CHECK(faults("none.stl") == Faults{mesh + ".file.path: is \"" + none +
                                      ".stl\"; expected a file that ends in .msh, .inp, .bdf, .nas or .dat"});
+  CHECK(faults("none.bdf, instance: A") ==
+        Faults{mesh + ".file.instance: is \"A\"; only decks of Abaqus (.inp) have instances"});
   folder.write("pieces.inp",
                "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 5, 0, 0\n5, 6, 0, 0\n6, 6, 1, 0\n7, 5, 1, 0\n"
                "*ELEMENT, TYPE=S3, ELSET=a\n1, 1, 2, 3\n*ELEMENT, TYPE=S4, ELSET=a\n2, 4, 5, 6, 7\n"
